@@ -1,0 +1,182 @@
+#!/usr/bin/env bash
+# Installs what libbrainshift needs, on Debian and Ubuntu; elsewhere says what is missing.
+set -euo pipefail
+
+usage() {
+  cat <<'END'
+Usage: cmake/install-deps.sh [GROUP]...
+
+Groups (default: core):
+  core   compiler, CMake, Ninja, Eigen, SuiteSparse, METIS, a serial OpenBLAS, and the libraries of
+         the io target and the examples
+  test   GoogleTest; Python with numpy and VTK for checks against VTK
+  data   what examples/head needs to make the head anew: volumes, CGAL, Python packages
+  docs   what draws pictures and charts: VTK, matplotlib, a virtual X server
+
+Does nothing where all is installed. Needs root or sudo only if something is missing.
+END
+}
+
+# One line per package: Debian's name | probe on other systems | what it is.
+# Probes: "command:NAME", "header:FILE", "python:MODULE", "-" for none.
+packages_of() {
+  case "$1" in
+    core) cat <<'END'
+build-essential|command:c++|a C++17 compiler
+cmake|command:cmake|CMake 3.22 or newer
+ninja-build|command:ninja|Ninja
+pkg-config|command:pkg-config|pkg-config
+libeigen3-dev|header:Eigen/Core|Eigen 3.3 or newer
+libsuitesparse-dev|header:cholmod.h|SuiteSparse (CHOLMOD)
+libmetis-dev|header:metis.h|METIS 5
+libopenblas0-serial|-|OpenBLAS, built without threads
+libpugixml-dev|header:pugixml.hpp|pugixml
+zlib1g-dev|header:zlib.h|zlib
+nlohmann-json3-dev|header:nlohmann/json.hpp|nlohmann-json
+libcli11-dev|header:CLI/CLI.hpp|CLI11
+END
+      ;;
+    test) cat <<'END'
+libgtest-dev|header:gtest/gtest.h|GoogleTest
+python3-numpy|python:numpy|numpy
+python3-vtk9|python:vtk|VTK 9 for Python
+END
+      ;;
+    data) cat <<'END'
+mricron-data|-|MRIcron's templates (Colin27: ch2, ch2bet, ch2better)
+libcgal-dev|header:CGAL/version.h|CGAL 5
+libboost-dev|header:boost/version.hpp|Boost
+libeigen3-dev|header:Eigen/Core|Eigen 3.3 or newer
+cmake|command:cmake|CMake 3.22 or newer
+g++|command:c++|a C++17 compiler
+python3-nibabel|python:nibabel|nibabel
+python3-numpy|python:numpy|numpy
+python3-scipy|python:scipy|scipy
+python3-skimage|python:skimage|scikit-image
+python3-matplotlib|python:matplotlib|matplotlib
+python3-vtk9|python:vtk|VTK 9 for Python
+END
+      ;;
+    docs) cat <<'END'
+python3-numpy|python:numpy|numpy
+python3-vtk9|python:vtk|VTK 9 for Python
+python3-matplotlib|python:matplotlib|matplotlib
+xvfb|command:xvfb-run|a virtual X server (Xvfb)
+xauth|command:xauth|xauth
+libgl1-mesa-dri|-|a software OpenGL
+END
+      ;;
+  esac
+}
+
+has_header() {
+  local compiler=${CXX:-c++} root paths=()
+  for root in /usr /usr/local /opt/local /opt/homebrew ${CMAKE_PREFIX_PATH//[:;]/ }; do
+    paths+=("-I$root/include/eigen3" "-I$root/include/suitesparse" "-I$root/include")
+  done
+  echo "#include <$1>" | "$compiler" -std=c++17 -x c++ -E "${paths[@]}" - >/dev/null 2>&1
+}
+
+is_there() {
+  case "$1" in
+    command:*) command -v "${1#command:}" >/dev/null ;;
+    header:*) has_header "${1#header:}" ;;
+    python:*) python3 -c "import ${1#python:}" >/dev/null 2>&1 ;;
+    *) true ;;
+  esac
+}
+
+on_debian() { command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; }
+
+# Prints "package|what it is" for each one missing.
+missing_of() {
+  local group package probe what
+  for group in "$@"; do
+    while IFS='|' read -r package probe what; do
+      if on_debian; then
+        [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] ||
+          echo "$package|$what"
+      else
+        is_there "$probe" || echo "$package|$what"
+      fi
+    done < <(packages_of "$group")
+  done | sort -u
+}
+
+apt() { ${SUDO:-} env DEBIAN_FRONTEND=noninteractive apt-get -q -y "$@"; }
+
+apt_knows() {
+  local package
+  for package in "$@"; do apt-cache show "$package" >/dev/null 2>&1 || return 1; done
+}
+
+apt_install() {
+  SUDO=
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "install-deps: run this as root:  apt-get install $*" >&2
+      exit 1
+    fi
+    SUDO=sudo
+  fi
+  # The lists of a fresh machine are empty, those of an old one may name files that are gone.
+  if ! apt_knows "$@"; then
+    apt update
+  elif apt install --no-install-recommends "$@"; then
+    return
+  else
+    apt update
+  fi
+  apt install --no-install-recommends "$@"
+}
+
+# CHOLMOD calls whatever libblas.so.3 is. The library threads over bodies and elements itself, and
+# its results are bit-identical only with a BLAS that does not: Debian's alternatives prefer
+# OpenBLAS to the reference BLAS, but a threaded OpenBLAS to the serial one.
+report_blas() {
+  local arch link blas
+  arch=$(dpkg-query -W -f='${Architecture}' libopenblas0-serial 2>/dev/null) || return 0
+  arch=$(dpkg-architecture -a"$arch" -qDEB_HOST_MULTIARCH 2>/dev/null) || return 0
+  link=libblas.so.3-$arch
+  blas=$(readlink -f "/usr/lib/$arch/libblas.so.3" || true)
+  case "$blas" in
+    */openblas-serial/*) echo "install-deps: the BLAS in use is the serial OpenBLAS ($blas)" ;;
+    *)
+      echo "install-deps: the BLAS in use is ${blas:-unknown}, not the serial OpenBLAS; results may be" >&2
+      echo "  slower and differ in the last bits from run to run. To choose it for this machine:" >&2
+      echo "  update-alternatives --set $link /usr/lib/$arch/openblas-serial/libblas.so.3" >&2
+      ;;
+  esac
+}
+
+main() {
+  local group lines names package what
+  for group in "$@"; do
+    case "$group" in
+      -h | --help) usage; exit 0 ;;
+      core | test | data | docs) ;;
+      *) echo "install-deps: unknown group '$group'; known: core test data docs" >&2; exit 2 ;;
+    esac
+  done
+  [ $# -gt 0 ] || set -- core
+
+  lines=$(missing_of "$@")
+  if [ -n "$lines" ] && ! on_debian; then
+    echo "install-deps: not Debian or Ubuntu; please install:" >&2
+    while IFS='|' read -r package what; do
+      echo "  $what (Debian: $package)" >&2
+    done <<<"$lines"
+    exit 1
+  fi
+  if [ -n "$lines" ]; then
+    names=$(echo "$lines" | cut -d'|' -f1 | tr '\n' ' ')
+    echo "install-deps: installing $names"
+    # shellcheck disable=SC2086  # one word per package
+    apt_install $names
+  else
+    echo "install-deps: $*: all installed"
+  fi
+  case " $* " in *" core "*) if on_debian; then report_blas; fi ;; esac
+}
+
+main "$@"

@@ -1,0 +1,95 @@
+#include "head.hpp"
+
+#include <cmath>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "brainshift/io.hpp"
+
+namespace dbs {
+namespace {
+
+Indices to_indices(const io::Field& field) {
+  Indices values(std::size_t(field.values.rows()));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = Index(std::lround(field.values(Eigen::Index(i), 0)));
+  }
+  return values;
+}
+
+Indices marked(const io::Field& field) {
+  Indices nodes;
+  for (Eigen::Index i = 0; i < field.values.rows(); ++i) {
+    if (field.values(i, 0) != 0.0) nodes.push_back(Index(i));
+  }
+  return nodes;
+}
+
+Triangles pick(const Triangles& all, const Indices& parts, int part, bool turned) {
+  Triangles some(all.rows(), 3);
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < all.rows(); ++i) {
+    if (parts[std::size_t(i)] != part) continue;
+    some.row(count) = all.row(i);
+    if (turned) std::swap(some(count, 1), some(count, 2));
+    ++count;
+  }
+  return some.topRows(count);
+}
+
+Triangles join(const Triangles& a, const Triangles& b) {
+  Triangles both(a.rows() + b.rows(), 3);
+  both << a, b;
+  return both;
+}
+
+void read_landmarks(const std::string& path, Head& head) {
+  std::ifstream file(path);
+  if (!file) throw Error(ErrorCode::file, path + ": cannot be read");
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  if (json.is_discarded() || !json.contains("landmarks")) {
+    throw Error(ErrorCode::file, path + ": is not JSON with an object 'landmarks'");
+  }
+  if (json.value("frame", "") != "RAS" || json.value("units", "") != "mm") {
+    throw Error(ErrorCode::file, path + ": frame and units must be \"RAS\" and \"mm\"");
+  }
+  head.name = json.value("name", "head");
+  for (const auto& [name, value] : json["landmarks"].items()) {
+    if (!value.is_array() || value.size() != 3 || !value[0].is_number()) {
+      throw Error(ErrorCode::file, path + ": landmark '" + name + "' is not three numbers");
+    }
+    head.landmarks[name] = Vec3(value[0], value[1], value[2]);
+  }
+  for (const char* needed : {"AC", "PC", "STN_left", "STN_right", "frontal_pole_left",
+                             "frontal_pole_right"}) {
+    if (!head.landmarks.count(needed)) {
+      throw Error(ErrorCode::file, path + ": landmark '" + needed + "' is missing");
+    }
+  }
+}
+
+}  // namespace
+
+Head read_head(const std::string& folder) {
+  const io::Grid brain = io::read_vtu(folder + "/brain.vtu");
+  const io::Grid cavity = io::read_vtp(folder + "/cavity.vtp");
+  const io::Grid sheet = io::read_vtp(folder + "/falx.vtp");
+  Head head{"", Mesh(brain.points, brain.tets, to_indices(brain.cell_field("region"))),
+            {}, {}, {}, {}, {}, cavity.points, {}, {}, sheet.points, sheet.triangles, {}};
+  head.pair = to_indices(brain.node_field("pair"));
+  head.bridge = marked(brain.node_field("bridge"));
+  head.falx = marked(brain.node_field("falx"));
+  head.stem = marked(brain.node_field("stem"));
+  head.optic = marked(brain.node_field("optic"));
+  const Indices parts = to_indices(cavity.cell_field("part"));
+  const Triangles walls[2] = {pick(cavity.triangles, parts, 1, false),
+                              pick(cavity.triangles, parts, 2, false)};
+  head.skull = join(walls[left], walls[right]);
+  head.wall[left] = join(walls[left], pick(cavity.triangles, parts, 3, false));
+  head.wall[right] = join(walls[right], pick(cavity.triangles, parts, 3, true));
+  read_landmarks(folder + "/head.json", head);
+  return head;
+}
+
+}  // namespace dbs

@@ -1,0 +1,35 @@
+// The head the procedure is done on: meshes, node sets and landmarks read from a folder.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "brainshift/brainshift.hpp"
+
+namespace dbs {
+
+using namespace brainshift;
+
+enum Side { left = 0, right = 1 };
+inline const char* name_of(int side) { return side == left ? "left" : "right"; }
+
+struct Head {
+  std::string name;
+  Mesh brain;                       // region 1: left, 2: right
+  Indices pair;                     // per node: its twin across the mid-surface, or -1
+  Indices bridge, falx, stem, optic;   // node sets
+  Points wall_points;               // inner skull, tentorium, and the mid-sheet between the sides
+  Triangles wall[2];                // closed outward compartments, by Side
+  Triangles skull;                  // outward, without the mid-sheet
+  Points falx_points;
+  Triangles falx_triangles;         // normals to the right
+  std::map<std::string, Vec3> landmarks;   // mm, RAS
+
+  static int region(int side) { return side == left ? 1 : 2; }
+};
+
+// Reads brain.vtu, cavity.vtp, falx.vtp and head.json; throws brainshift::Error naming the file
+// and what is wrong with it.
+Head read_head(const std::string& folder);
+
+}  // namespace dbs

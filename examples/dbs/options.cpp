@@ -1,0 +1,62 @@
+#include "options.hpp"
+
+#include <charconv>
+
+#include <CLI/CLI.hpp>
+
+namespace dbs {
+
+Loss parse_loss(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const std::string unit(end, text.data() + text.size());
+  if (error == std::errc() && unit == "mL") return {FluidLaw::lost_volume, value * mm3_per_ml};
+  if (error == std::errc() && unit == "mL-air") return {FluidLaw::air_volume, value * mm3_per_ml};
+  if (error == std::errc() && unit == "mm") return {FluidLaw::level, value};
+  throw Error(ErrorCode::invalid_argument,
+              "'" + text + "' is no loss of fluid: write 20mL (fluid), 20mL-air or 35mm (level)");
+}
+
+int parse(int argc, char** argv, Options& o) {
+  CLI::App app{"Brain shift of a deep brain stimulation procedure: fluid is lost on the right, then on "
+               "the left, and comes back in the months after.", "dbs"};
+  app.add_option("--head", o.head, "folder of the head (brain.vtu, cavity.vtp, falx.vtp, head.json)")
+      ->required();
+  app.add_option("--out", o.out, "folder for results")->capture_default_str();
+  app.add_option("--law", o.law, "linear, corotational, st_venant_kirchhoff or stable_neo_hookean")
+      ->capture_default_str();
+  app.add_option("--young", o.young, "Young's modulus of the brain, kPa")->capture_default_str();
+  app.add_option("--poisson", o.poisson, "Poisson's ratio of the brain")->capture_default_str();
+  app.add_option("--density", o.density, "of the brain, kg/m^3")->capture_default_str();
+  app.add_option("--csf-density", o.csf_density, "of the fluid, kg/m^3")->capture_default_str();
+  app.add_option("--right", o.right, "lost on the right: 20mL (fluid), 20mL-air, or 35mm (level)")
+      ->capture_default_str();
+  app.add_option("--left", o.left, "lost on the left; 0mL: one side only")->capture_default_str();
+  app.add_option("--late", o.late, "part of a side's loss that comes during testing")
+      ->capture_default_str()->check(CLI::Range(0.0, 1.0));
+  app.add_option("--elevation", o.elevation, "of the head above horizontal, degrees")
+      ->capture_default_str()->check(CLI::Range(-90.0, 90.0));
+  app.add_option("--fluid", o.fluid, "separate: each side its level; communicating: one")
+      ->capture_default_str()->check(CLI::IsMember({"separate", "communicating"}));
+  app.add_option("--support", o.support,
+                 "how the brainstem is held at its lower end, and the optic nerves if named")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"elastic", "fixed", "elastic+optic", "fixed+optic"}));
+  app.add_flag("--falx,!--no-falx", o.falx, "with or without the falx (hemispheres still touch)");
+  app.add_flag("--skull,!--no-skull", o.skull, "with or without contact with skull and tentorium");
+  app.add_flag("--balanced,!--free", o.balanced,
+               "the image is in balance with gravity and full fluid, or free of load");
+  app.add_flag("--files,!--no-files", o.files, "write VTU files of the stages");
+  app.add_flag("--quiet", o.quiet, "no progress");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e);
+  }
+  parse_loss(o.right);
+  parse_loss(o.left);
+  law_from_name(o.law);
+  return -1;
+}
+
+}  // namespace dbs

@@ -1,0 +1,21 @@
+// The scene of the procedure: what the library is handed.
+#pragma once
+
+#include "head.hpp"
+#include "options.hpp"
+
+namespace dbs {
+
+struct SceneIds {   // constraint groups the results ask for; -1: not in the scene
+  ConstraintId skull = -1, falx[2] = {-1, -1}, opposing = -1;
+};
+
+// Gravity for a head elevated by `degrees` (RAS, mm/s^2), and the height axis that goes with it.
+Vec3 gravity_of(double degrees);
+
+Scene make_scene(const Head& head, const Options& options, SceneIds& ids);
+
+// Level of the full fluid: the top of the cavity along -gravity (mm).
+double full_level(const Head& head, const Vec3& gravity);
+
+}  // namespace dbs

@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""Colin27 T1 image -> smooth signed distances of brain and cavity, and the mid-surface.
+
+Usage: segment.py WORK_DIR. Writes WORK_DIR/segmentation.npz (head frame, see frame.py):
+  t1                T1 intensity, padded voxels (for pictures)
+  brain             signed distance (mm) of cerebrum + brainstem, sulci and ventricles filled
+  cavity            signed distance (mm) of the intracranial space outside the cerebellum
+  obstacle          signed distance (mm), negative on the cerebellum's side of the tentorium
+  mid               coefficients of the mid-surface, mid_rms its residual
+  mask_volume_mni   tissue of the whole brain, MNI mm^3
+"""
+import pathlib
+import sys
+
+import numpy as np
+import scipy.ndimage as ndimage
+from skimage.segmentation import watershed
+
+import frame
+import midsurface
+from volume import (closing, erode, dilate, largest, load, mni_axes, opening, signed_distance,
+                    smooth_distance, voxel)
+
+TISSUE = 62  # T1 value between cerebrospinal fluid (about 35) and grey matter (about 85)
+
+
+BRAIN_MARGIN = 1.2  # voxels of fluid kept between brain and wall everywhere
+
+
+def tissue_mask(t1, extracted):
+    """Whole brain. The extracted volume (ch2bet) has streaks, and steps where it lost some cortex."""
+    rough = largest(opening(extracted > TISSUE, 1.5))
+    # Win back the lost cortex from the whole head, not further out than the closed brain, and not
+    # fat, which is brighter than white matter.
+    return largest(opening((t1 > TISSUE) & (t1 < 135) & closing(rough, 8), 1.5)), rough
+
+
+def infratentorial_labels(t1, tissue):
+    """Watershed on the T1 image from seeds: 1 cerebrum, 2 cerebellum, 3 brainstem.
+
+    The tentorium is a dark sheet of one or two voxels, which the watershed follows."""
+    x, y, z = mni_axes(t1.shape)
+
+    def ball(centre, radius):
+        return (x - centre[0])**2 + (y - centre[1])**2 + (z - centre[2])**2 < radius**2
+
+    seeds = np.zeros(t1.shape, np.int32)
+    seeds[(z > 12) & tissue] = 1
+    seeds[(y > -6) & tissue] = 1
+    for label, balls in ((1, frame.CEREBRUM_SEEDS), (2, frame.CEREBELLUM_SEEDS)):
+        for (bx, by, bz), radius in balls:
+            for side in (-1, 1):
+                seeds[ball((side * bx, by, bz), radius) & tissue] = label
+    seeds[(np.abs(x) < 8) & (y > -31) & (y < -9) & (z < -11) & tissue] = 3
+    labels = watershed(-ndimage.gaussian_filter(t1, 0.7), seeds, mask=tissue)
+
+    back = np.interp(z, *frame.STEM_BACK_MNI.T)  # y of the brainstem's posterior face
+    stem = (y > back) & (np.abs(x) < frame.STEM_HALF_WIDTH)
+    labels[(labels >= 2) & stem] = 3
+    labels[(labels >= 2) & ~stem] = 2
+    return labels
+
+
+def ventricles(t1):
+    """Lateral and third ventricles: dark, opened by 1 mm so that they part from the cisterns."""
+    x, y, z = mni_axes(t1.shape)
+    dark = (t1 < 66) & (np.abs(x) < 42) & (np.abs(x) > 1) & (y > -76) & (y < 41) & (z < 33) & (z > -23)
+    cores, _ = ndimage.label(erode(dark, 1.0))
+    seeds = [cores[voxel((s * a, b, c))] for s in (-1, 1) for a, b, c in frame.VENTRICLE_SEEDS]
+    lateral = dark & dilate(np.isin(cores, [s for s in seeds if s]), 1.5)
+    third = (np.abs(x) < 7) & (y > -29) & (y < 8) & (z > -16) & (z < 22) & (t1 < 75)
+    return lateral | third
+
+
+def brain_distance(labels, t1):
+    """Cerebrum + brainstem without sulci and ventricles; voxels. The brainstem goes on downwards
+    below the cut so that the cut face is a clean section."""
+    x, y, z = mni_axes(t1.shape)
+    solid = (labels == 1) | (labels == 3) | ventricles(t1)
+    solid = largest(opening(ndimage.binary_fill_holes(closing(solid, 3.0)), 1.5))
+    floor = voxel((0, 0, frame.STEM_CUT_MNI - 1))[2]
+    solid[:, :, :floor] = solid[:, :, floor:floor + 1]
+    return np.maximum(smooth_distance(solid, 1.6), frame.STEM_CUT_MNI - 10 - z)
+
+
+def cavity_distance(tissue, labels, brain, obstacle):
+    """Inner skull: closed hull of the whole brain + 1.5 mm, where the T1 signal falls to bone.
+
+    A ball of 15 mm suits the convexity; at the base it would swallow the sphenoid wings and the
+    petrous bones, so a smaller one is used there."""
+    x, y, z = mni_axes(tissue.shape)
+    whole = tissue | (brain < 0)
+    hull = (closing(whole, 15.0) & (z > -5)) | closing(whole, 6.0)
+    skull = smooth_distance(hull, 2.5) - 1.5
+    # Thin fingers without brain in them (between petrous bone and cerebellum) are cut off.
+    cavity = opening((skull < 0) & (obstacle > 0), 4.0) | (brain < BRAIN_MARGIN)
+    cavity &= z > frame.CAVITY_FLOOR_MNI
+    # Smoothing a mask loses some of the margin; where it does, the brain's own distance decides.
+    return np.minimum(smooth_distance(cavity, 1.5),
+                      np.maximum(brain - BRAIN_MARGIN, frame.CAVITY_FLOOR_MNI - z))
+
+
+def main(work):
+    t1, extracted = load("ch2"), load("ch2bet")
+    tissue, rough = tissue_mask(t1, extracted)
+    mass = tissue.sum() * frame.SCALE**3 * frame.DENSITY
+    print(f"tissue {tissue.sum() / 1e3:.0f} cm3 in MNI size, {mass:.3f} kg after scaling", flush=True)
+    labels = infratentorial_labels(t1, tissue)
+    print("cerebrum, cerebellum, brainstem (cm3, MNI):",
+          *(f"{np.sum(labels == k) / 1e3:.0f}" for k in (1, 2, 3)), flush=True)
+    brain = brain_distance(labels, t1)
+    cerebellum = smooth_distance(closing(labels == 2, 3.0), 1.6)
+    obstacle = ndimage.gaussian_filter((cerebellum - brain) / 2, 1.0)
+    cavity = cavity_distance(tissue, labels, brain, obstacle)
+    mid, rms = midsurface.fit(t1, cavity < -2)
+    print(f"mid-surface: residual {rms:.2f} mm rms", flush=True)
+    pathlib.Path(work).mkdir(parents=True, exist_ok=True)
+    np.savez(pathlib.Path(work) / "segmentation.npz", t1=t1.astype(np.uint8),
+             brain=brain * np.float32(frame.SCALE), cavity=cavity * np.float32(frame.SCALE),
+             obstacle=obstacle * np.float32(frame.SCALE), mid=mid, mid_rms=rms,
+             mask_volume_mni=float(tissue.sum()), tissue=tissue, labels=labels.astype(np.uint8))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

@@ -1,0 +1,144 @@
+// The state of a scene, and the solves that change it.
+//
+// The library knows stages of no procedure: the host changes fluid, gravity or constraints and
+// calls solve_static(). A solve that fails leaves the state as it was.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "brainshift/constraint_set.hpp"
+#include "brainshift/csf.hpp"
+#include "brainshift/material.hpp"
+#include "brainshift/mesh.hpp"
+#include "brainshift/types.hpp"
+
+namespace brainshift {
+
+struct Scene {
+  Mesh mesh;
+  std::vector<std::pair<Index, Material>> materials;   // region -> material; each region once
+  Vec3 gravity{0.0, 0.0, -standard_gravity};           // mm/s^2
+  std::optional<Csf> csf = std::nullopt;
+  ConstraintSet constraints = {};
+  // true: the mesh is an image taken under gravity and full CSF, hence in balance with them; loads
+  // are differences from that reference, taken at the same deformed positions. false: the mesh is
+  // free of load, and gravity and CSF act in full.
+  bool balanced_reference = true;
+};
+
+struct Progress {
+  double load_factor;    // 0..1 of the present solve
+  int iteration;         // Newton iterations so far in this solve
+  double residual;       // relative
+};
+
+struct StepperOptions {
+  double residual_tolerance = 1e-8;         // relative to the largest of the force norms
+  double complementarity_tolerance = 1e-8;  // relative
+  double correction_tolerance = 1e-10;      // last correction relative to the mesh diameter
+  int max_iterations = 60;                  // Newton iterations per load step
+  double smallest_load_step = 1.0 / 256.0;  // below it: no equilibrium
+  double initial_penetration = 1e-6;        // accepted at the start, relative to the diameter
+  // Called after every Newton iteration; false stops the solve with Status::cancelled.
+  std::function<bool(const Progress&)> progress;
+};
+
+enum class Status {
+  converged,
+  no_equilibrium,   // no state in balance was found beyond SolveReport::load_factor
+  not_converged,    // iterations ran out
+  cancelled
+};
+
+const char* to_string(Status status);
+
+// Certificate of a solve: measured on the state that is left behind.
+struct SolveReport {
+  Status status = Status::not_converged;
+  double residual = 0.0;          // max-norm of unbalanced force / largest of the force norms
+  double complementarity = 0.0;   // max of |min(gap/L, multiplier/F)| over one-sided rows
+  double violation = 0.0;         // mm; largest negative gap
+  double last_correction = 0.0;   // mm; max-norm of the last Newton step
+  double smallest_jacobian = 1.0; // min over tets of det F
+  double energy = 0.0;            // uJ stored in tissue and supports
+  double load_factor = 1.0;       // part of the change of load that is in balance
+  int load_steps = 0;
+  int iterations = 0;             // Newton
+  int factorisations = 0;
+  int shifted_factorisations = 0; // those that needed a projected or shifted tangent
+  Index active_contacts = 0;
+  double seconds = 0.0, seconds_assembly = 0.0, seconds_factor = 0.0, seconds_line_search = 0.0;
+  std::string message;            // one sentence; the hint when not converged
+
+  bool converged() const { return status == Status::converged; }
+};
+
+// Displacements at points; a point outside the mesh has tet -1 and NaN.
+struct PointValues {
+  Points values;   // mm
+  Indices tet;
+};
+
+class Stepper {
+ public:
+  // Throws Error naming the culprit: a region without material, a constraint on a node that is not
+  // there, rows that contradict each other, an initial penetration, a fluid above its cavity, ...
+  explicit Stepper(Scene scene, StepperOptions options = {});
+  ~Stepper();
+  Stepper(Stepper&&) noexcept;
+  Stepper& operator=(Stepper&&) noexcept;
+
+  const Mesh& mesh() const;
+  const StepperOptions& options() const;
+
+  // Settings, taken up by the next solve.
+  Csf& csf();                           // throws invalid_argument if the scene has none
+  const Csf& csf() const;
+  const ConstraintSet& constraints() const;
+  void set_gravity(const Vec3& gravity);
+  void enable(ConstraintId id);
+  void disable(ConstraintId id);
+
+  // Throws what solve_static() would throw for the present settings; changes nothing.
+  void check_settings() const;
+
+  // Quasi-static equilibrium under the present settings. Throws Error for bad settings
+  // (rigid_mode, fluid_volume); anything else ends in the report's status.
+  SolveReport solve_static();
+
+  // The state: that of the last solve that converged, under the settings it had.
+  const Points& displacement() const;        // N x 3, mm
+  Points positions() const;                  // N x 3, mm
+  Eigen::VectorXd jacobians() const;         // M; det F of each tet
+  Eigen::VectorXd fluid_pressure() const;    // N, kPa; 0 where a node is dry or cannot be wetted
+  // Nodal forces now (mN), N x 3: of the material, of gravity, of the fluid on the wetted faces
+  // (each in full, without the reference taken off).
+  Points internal_force() const;
+  Points gravity_force() const;
+  Points fluid_force() const;
+  // Load on the tissue: gravity and fluid, minus the reference load if the scene is balanced (mN).
+  Points external_force() const;
+  CompartmentState compartment(Index i) const;
+  ContactState contact(ConstraintId id) const;
+
+  // Displacement of the material points that lie at `rest_points` in the mesh as given; and the
+  // rest points of the material that now lies at `points`.
+  PointValues displacement_at(const Points& rest_points) const;
+  PointValues rest_points_of(const Points& points) const;
+
+  // A copy of state and settings; restore() brings back the same bits.
+  class Snapshot;
+  std::shared_ptr<const Snapshot> snapshot() const;
+  void restore(const std::shared_ptr<const Snapshot>& snapshot);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> m_impl;
+};
+
+}  // namespace brainshift

@@ -1,0 +1,65 @@
+// Elimination of bilateral and active one-sided rows of nodes from the stiffness matrix.
+//
+// Each block i of unknowns is written dx_i = Q_i y_i + T_i dx_partner + c_i, where the columns of Q_i
+// span the directions its rows leave free (in node-local axes, so that the pattern of the matrix,
+// and with it the symbolic factor, never changes), T_i carries an active pair row, and c_i is the
+// particular solution of the rows. The reduced matrix is A = T^T K T, positive definite where K is
+// on the admissible directions; steel or contact never enters it as a penalty.
+#pragma once
+
+#include <vector>
+
+#include "linear/block_matrix.hpp"
+
+namespace brainshift {
+
+// A row  normal . (dx_block - dx_partner) = value  (partner -1: a row of one node).
+struct NodeRow {
+  Index block, partner;
+  Vec3 normal;
+  double value;
+  std::size_t tag;   // the caller's name for the row
+};
+
+class Reduction {
+ public:
+  // rows: in order of precedence; a row that depends on earlier ones of its block is left out and
+  // gets multiplier 0. A block may be the partner of at most one row, and must have none itself.
+  Reduction(Index blocks, const std::vector<NodeRow>& rows);
+
+  // A = T^T K T into a matrix whose pattern holds the pairs; fixed directions get `diagonal`.
+  void reduce(const BlockMatrix& K, double diagonal, BlockMatrix& A) const;
+  // y-space right-hand side T^T v for a force v; fixed directions get 0.
+  Eigen::VectorXd restrict_force(const Eigen::VectorXd& v) const;
+  // dx = T y (homogeneous), and the particular solution c.
+  Eigen::VectorXd expand(const Eigen::VectorXd& y) const;
+  const Eigen::VectorXd& particular() const { return m_particular; }
+
+  // Multipliers of the rows (by tag) that balance the force `unbalanced` on their blocks:
+  // unbalanced + sum multiplier * (gradient) = 0 along the rows. Others are left untouched.
+  void multipliers(const Eigen::VectorXd& unbalanced, std::vector<double>& by_tag) const;
+  // Removes from `force` what the rows (bilateral ones too) carry; what is left is out of balance.
+  Eigen::VectorXd project(const Eigen::VectorXd& force) const;
+
+ private:
+  struct Block {
+    bool plain = true;                 // no row: Q = I
+    Mat3 q = Mat3::Identity();         // orthonormal; the first `held` columns are held by rows
+    Mat3 lower = Mat3::Zero();         // row k: normal_k = sum_j lower(k, j) q_j
+    int held = 0;
+    std::size_t tags[3] = {0, 0, 0};
+    int pair = -1;                     // which held row is a pair row
+    Index partner = -1;
+    Vec3 pair_normal = Vec3::Zero();
+    Vec3 pair_response = Vec3::Zero(); // motion of the block for a unit value of the pair row
+    Mat3 free() const;                 // q with the held columns zeroed
+  };
+  void add_row(const NodeRow& row);
+  Mat3 coupling(const Block& b) const;  // T_i Q_partner: from y of the partner to dx of the block
+
+  std::vector<Block> m_blocks;
+  std::vector<Vec3> m_values;   // right-hand sides of the held rows of each block
+  Eigen::VectorXd m_particular;
+};
+
+}  // namespace brainshift

@@ -1,0 +1,384 @@
+#include "stepper/newton.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/LU>
+
+namespace brainshift {
+namespace {
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : m_total(total), m_start(clock::now()) {}
+  ~Stopwatch() { m_total += std::chrono::duration<double>(clock::now() - m_start).count(); }
+
+ private:
+  using clock = std::chrono::steady_clock;
+  double& m_total;
+  clock::time_point m_start;
+};
+
+double max_norm(const Eigen::VectorXd& v) { return v.size() ? v.lpNorm<Eigen::Infinity>() : 0.0; }
+
+// Changes of the active set within one linearisation; more are left to the next iteration.
+constexpr int max_active_set_changes = 4;
+
+}  // namespace
+
+Newton::Newton(const Equilibrium& equilibrium, const StepperOptions& options, FactorCache& cache,
+               SolveReport& report)
+    : m_eq(equilibrium), m_options(options), m_cache(cache), m_report(report) {
+  const auto& blocks = m_eq.blocks_pointer();
+  if (m_cache.made_for == blocks) return;
+  m_cache.stiffness = blocks->make_matrix();
+  m_cache.reduced = m_cache.stiffness;
+  m_cache.solver = make_spd_solver();
+  m_cache.solver->analyse(m_cache.reduced);
+  m_cache.made_for = blocks;
+}
+
+void Newton::refresh(const Eigen::VectorXd& offset) {
+  Stopwatch watch(m_report.seconds_assembly);
+  m_forces = m_eq.forces(m_state.u);
+  m_load = m_eq.blocks().gather(m_forces.external - m_forces.internal) + offset;
+}
+
+double Newton::local_stiffness(Index block) const {
+  return m_cache.stiffness.get(m_cache.stiffness.slot_at(block, 0)).trace() / 3.0;
+}
+
+// Primal-dual prediction: a row is active where its multiplier outweighs its gap, both as forces.
+void Newton::choose_active() {
+  const ContactRows& contacts = m_eq.contacts();
+  m_active.assign(contacts.size(), 0);
+  for (std::size_t r = 0; r < contacts.size(); ++r) {
+    const double stiffness = local_stiffness(contacts.row(r).node);
+    m_active[r] = m_state.multipliers[r] - stiffness * m_forces.gaps[r].gap > 0.0;
+  }
+}
+
+Reduction Newton::make_reduction() const {
+  std::vector<NodeRow> rows = m_eq.fixed_rows();
+  const std::size_t untagged = m_active.size();   // multipliers of fixed rows are not kept
+  const Points& u = m_state.u;
+  for (NodeRow& row : rows) {
+    row.value = -row.normal.dot(u.row(Eigen::Index(row.tag)).transpose());
+    row.tag = untagged;
+  }
+  for (int pass = 0; pass < 2; ++pass) {   // rows of one node first, then pairs
+    for (std::size_t r = 0; r < m_active.size(); ++r) {
+      const ContactRow& row = m_eq.contacts().row(r);
+      if (!m_active[r] || (row.partner >= 0) != (pass == 1)) continue;
+      rows.push_back({row.node, row.partner, m_forces.gaps[r].normal, -m_forces.gaps[r].gap, r});
+    }
+  }
+  return Reduction(m_eq.blocks().count(), rows);
+}
+
+bool Newton::factorise_shifted(const Reduction& reduction) {
+  Stopwatch watch(m_report.seconds_factor);
+  const double scale = m_cache.stiffness.mean_diagonal();
+  double shift = 0.0;
+  for (int attempt = 0; attempt < 12; ++attempt) {
+    ++m_report.factorisations;
+    if (m_cache.solver->factorise(m_cache.reduced)) return true;
+    ++m_report.shifted_factorisations;
+    const double more = shift == 0.0 ? 1e-3 * scale : shift;   // doubles the shift
+    m_cache.stiffness.add_to_diagonal(more);
+    shift += more;
+    reduction.reduce(m_cache.stiffness, scale, m_cache.reduced);
+  }
+  return false;
+}
+
+// Assembles the tangent; definite where a former one of this solve was not positive.
+bool Newton::linearise() {
+  Stopwatch watch(m_report.seconds_assembly);
+  m_eq.tangent(m_state.u, m_forces, m_state.multipliers, m_definite, m_cache.stiffness);
+  m_terms = m_eq.head_terms(m_state.u, m_forces);
+  m_columns.clear();
+  m_rows.clear();
+  for (const RankOne& term : m_terms) {
+    m_columns.push_back(m_eq.blocks().gather(term.column));
+    m_rows.push_back(m_eq.blocks().gather(term.row));
+  }
+  return true;
+}
+
+// Solves (K + sum column row^T) dx = load on the admissible directions (Sherman, Morrison,
+// Woodbury), and finds the multipliers of the active rows.
+Newton::Step Newton::direction(const Reduction& reduction) {
+  Stopwatch watch(m_report.seconds_factor);
+  const std::size_t terms = m_columns.size();
+  const Eigen::VectorXd& c = reduction.particular();
+  Eigen::VectorXd product;
+  m_cache.stiffness.multiply(c, product);
+  Eigen::VectorXd rhs = m_load - product;
+  for (std::size_t k = 0; k < terms; ++k) rhs -= m_columns[k] * m_rows[k].dot(c);
+
+  Eigen::MatrixXd x(rhs.size(), Eigen::Index(1 + terms));
+  x.col(0) = reduction.restrict_force(rhs);
+  Eigen::MatrixXd rows(rhs.size(), Eigen::Index(terms));
+  for (std::size_t k = 0; k < terms; ++k) {
+    x.col(Eigen::Index(1 + k)) = reduction.restrict_force(m_columns[k]);
+    rows.col(Eigen::Index(k)) = reduction.restrict_force(m_rows[k]);
+  }
+  m_cache.solver->solve(x);
+  Eigen::VectorXd y = x.col(0);
+  if (terms > 0) {
+    const auto columns = x.rightCols(Eigen::Index(terms));
+    const Eigen::MatrixXd small =
+        Eigen::MatrixXd::Identity(Eigen::Index(terms), Eigen::Index(terms)) +
+        rows.transpose() * columns;
+    y -= columns * small.partialPivLu().solve(rows.transpose() * y);
+  }
+  Step step;
+  step.dx = reduction.expand(y) + c;
+  m_cache.stiffness.multiply(step.dx, product);
+  Eigen::VectorXd unbalanced = m_load - product;
+  for (std::size_t k = 0; k < terms; ++k) unbalanced -= m_columns[k] * m_rows[k].dot(step.dx);
+  step.multipliers.assign(m_active.size() + 1, 0.0);   // the last one collects fixed rows
+  reduction.multipliers(unbalanced, step.multipliers);
+  step.multipliers.pop_back();
+  step.slope = m_load.dot(step.dx);
+  return step;
+}
+
+bool Newton::update_active(const Step& step) {
+  const ContactRows& contacts = m_eq.contacts();
+  const double slack = 1e-12 * m_eq.mesh().diameter();
+  bool changed = false;
+  for (std::size_t r = 0; r < contacts.size(); ++r) {
+    if (m_active[r]) {
+      if (step.multipliers[r] < 0.0) {
+        m_active[r] = 0;
+        changed = true;
+      }
+      continue;
+    }
+    const ContactRow& row = contacts.row(r);
+    const GapSample& g = m_forces.gaps[r];
+    double gap = g.gap + g.normal.dot(step.dx.segment<3>(3 * row.node));
+    if (row.partner >= 0) gap -= g.normal.dot(step.dx.segment<3>(3 * row.partner));
+    if (gap < -slack) {
+      m_active[r] = 1;
+      changed = true;
+    }
+  }
+  return changed;
+}
+
+bool Newton::find_step(Step& step, bool fresh) {
+  if (!fresh) {   // the factor at hand, with rows and forces of today
+    step = direction(make_reduction());
+    return step.dx.allFinite();
+  }
+  linearise();
+  choose_active();
+  for (int change = 0;; ++change) {
+    const Reduction reduction = make_reduction();
+    reduction.reduce(m_cache.stiffness, m_cache.stiffness.mean_diagonal(), m_cache.reduced);
+    if (!m_definite) {
+      Stopwatch watch(m_report.seconds_factor);
+      ++m_report.factorisations;
+      if (!m_cache.solver->factorise(m_cache.reduced)) {
+        ++m_report.shifted_factorisations;
+        m_definite = true;   // from now on in this solve
+        linearise();
+        continue;
+      }
+    } else if (!factorise_shifted(reduction)) {
+      return false;
+    }
+    step = direction(reduction);
+    if (!step.dx.allFinite()) return false;
+    const std::vector<char> used = m_active;
+    if (!update_active(step)) return true;
+    if (change + 1 >= max_active_set_changes) {
+      m_active = used;
+      return true;
+    }
+  }
+}
+
+bool Newton::no_new_inversion(const Points& u, const Eigen::VectorXd& before) const {
+  const Eigen::VectorXd now = m_eq.tissue().jacobians(u);
+  for (Eigen::Index t = 0; t < now.size(); ++t) {
+    if (!(now[t] > 0.0) && before[t] > 0.0) return false;
+  }
+  return true;
+}
+
+// Moves nodes onto the surfaces they are active on or have passed: the active rows are equations
+// here, so that every iterate obeys them exactly and the energy alone can judge a step.
+void Newton::make_feasible(Points& u, std::vector<char>& touched) const {
+  const ContactRows& contacts = m_eq.contacts();
+  const double slack = 1e-13 * m_eq.mesh().diameter();
+  touched = m_active;
+  for (int sweep = 0; sweep < 20; ++sweep) {
+    double worst = 0.0;
+    for (std::size_t r = 0; r < contacts.size(); ++r) {
+      const GapSample g = contacts.sample(r, u);
+      if (g.gap < -slack) touched[r] = 1;
+      if (!touched[r] || std::abs(g.gap) <= slack) continue;
+      worst = std::max(worst, std::abs(g.gap));
+      const ContactRow& row = contacts.row(r);
+      const double share = row.partner >= 0 ? 0.5 : 1.0;
+      const Vec3 move = -share * g.gap * g.normal / g.normal.squaredNorm();
+      m_eq.blocks().move(row.node, move, u);
+      if (row.partner >= 0) m_eq.blocks().move(row.partner, -move, u);
+    }
+    if (worst == 0.0) break;
+  }
+}
+
+// Backtracking on the change of energy; returns the part of the step taken, 0 if none would do.
+double Newton::search(const Step& step, MechanicalState& next) {
+  Stopwatch watch(m_report.seconds_line_search);
+  const Points& u0 = m_state.u;
+  const Points external0 = m_forces.external;
+  const double energy0 = m_eq.stored_energy(u0);
+  const Eigen::VectorXd jacobians = m_eq.tissue().jacobians(u0);
+  std::vector<char> touched;
+  double part = 1.0;
+  for (int attempt = 0; attempt < 30; ++attempt) {
+    next.u = u0;
+    m_eq.blocks().scatter_add(step.dx, part, next.u);
+    make_feasible(next.u, touched);
+    if (!next.u.allFinite() || !no_new_inversion(next.u, jacobians)) {
+      part *= 0.5;
+      continue;
+    }
+    const double energy1 = m_eq.stored_energy(next.u);
+    const double work = m_eq.external_work(u0, external0, next.u) +
+                        m_offset.dot(m_eq.blocks().gather_motion(next.u - u0));
+    const double change = energy1 - energy0 - work;
+    const double noise = 1e-12 * (std::abs(energy0) + std::abs(energy1) + std::abs(work));
+    if (change <= -1e-4 * part * step.slope + noise) {
+      m_active = touched;
+      return part;
+    }
+    // Minimum of the parabola through value and slope at 0 and the value here, kept in [0.1, 0.5].
+    const double bend = change + part * step.slope;
+    const double best = bend > 0.0 ? 0.5 * part * part * step.slope / bend : 0.5 * part;
+    part = std::clamp(best, 0.1 * part, 0.5 * part);
+  }
+  return 0.0;
+}
+
+// Multipliers that balance the forces at the present state best; negative ones are given up.
+void Newton::estimate_multipliers() {
+  std::vector<double> found(m_active.size() + 1, 0.0);
+  make_reduction().multipliers(m_load, found);
+  found.pop_back();
+  for (std::size_t r = 0; r < found.size(); ++r) {
+    m_state.multipliers[r] = m_active[r] ? std::max(found[r], 0.0) : 0.0;
+  }
+}
+
+void Newton::measure(const Eigen::VectorXd& offset) {
+  const Blocks& blocks = m_eq.blocks();
+  const Eigen::VectorXd contact = m_eq.contact_force(m_forces, m_state.multipliers);
+  const Eigen::VectorXd total = m_load + contact;
+  const Reduction fixed(blocks.count(), m_eq.fixed_rows());
+  const Eigen::VectorXd rest = fixed.project(total);
+  const double constraint = std::max(max_norm(contact), max_norm(total - rest));
+  const double scale =
+      std::max({max_norm(blocks.gather(m_forces.internal)),
+                max_norm(blocks.gather(m_forces.external) + offset), constraint,
+                m_eq.force_floor()});
+  m_report.residual = max_norm(rest) / scale;
+  m_report.complementarity = 0.0;
+  m_report.violation = 0.0;
+  m_report.active_contacts = 0;
+  for (std::size_t r = 0; r < m_forces.gaps.size(); ++r) {
+    const double gap = m_forces.gaps[r].gap, multiplier = m_state.multipliers[r];
+    m_report.violation = std::max(m_report.violation, -gap);
+    m_report.complementarity =
+        std::max(m_report.complementarity,
+                 std::abs(std::min(gap / m_eq.mesh().diameter(), multiplier / scale)));
+    if (multiplier > 0.0) ++m_report.active_contacts;
+  }
+}
+
+bool Newton::small_enough(double last_correction) const {
+  return m_report.residual <= m_options.residual_tolerance &&
+         m_report.complementarity <= m_options.complementarity_tolerance &&
+         last_correction <= m_options.correction_tolerance * m_eq.mesh().diameter();
+}
+
+Eigen::VectorXd Newton::unbalanced(const MechanicalState& state) {
+  m_state = state;
+  refresh(Eigen::VectorXd::Zero(3 * m_eq.blocks().count()));
+  return m_load + m_eq.contact_force(m_forces, m_state.multipliers);
+}
+
+void Newton::certify(const MechanicalState& state, const Eigen::VectorXd& offset) {
+  m_state = state;
+  refresh(offset);
+  measure(offset);
+  m_report.energy = m_eq.stored_energy(state.u);
+  m_report.smallest_jacobian = m_eq.tissue().jacobians(state.u).minCoeff();
+}
+
+Newton::Outcome Newton::solve(MechanicalState& state, const Eigen::VectorXd& offset,
+                              double load_factor) {
+  m_state = state;
+  m_offset = offset;
+  m_definite = false;
+  m_active.assign(m_eq.contacts().size(), 0);
+  double last = std::numeric_limits<double>::infinity();
+  double previous = last;
+  bool fresh = true;
+  std::vector<char> factored_set;
+  refresh(offset);
+  measure(offset);
+  if (m_report.residual <= 1e-4 * m_options.residual_tolerance &&
+      m_report.complementarity <= m_options.complementarity_tolerance) {
+    m_report.last_correction = 0.0;
+    return Outcome::converged;
+  }
+  for (int iteration = 1; iteration <= m_options.max_iterations; ++iteration) {
+    Step step;
+    if (!find_step(step, fresh)) return Outcome::stuck;
+    if (fresh) factored_set = m_active;
+    MechanicalState next = m_state;
+    const double part = search(step, next);
+    if (part == 0.0) {
+      if (!fresh) {   // the stale factor was to blame, perhaps
+        fresh = true;
+        m_active = factored_set;
+        continue;
+      }
+      if (m_definite) return Outcome::stuck;
+      m_definite = true;
+      continue;
+    }
+    previous = last;
+    last = max_norm(step.dx) * part;
+    m_state.u = std::move(next.u);
+    refresh(offset);
+    estimate_multipliers();
+    measure(offset);
+    ++m_report.iterations;
+    m_report.last_correction = last;
+    if (m_options.progress &&
+        !m_options.progress({load_factor, m_report.iterations, m_report.residual})) {
+      return Outcome::cancelled;
+    }
+    if (small_enough(last)) {
+      state = m_state;
+      return Outcome::converged;
+    }
+    // The factor at hand serves again while the set stands and it converges fast.
+    const bool same = m_active == factored_set;
+    fresh = !(same && part == 1.0 && last <= 1e-3 * m_eq.mesh().diameter() &&
+              last <= 0.1 * previous);
+  }
+  return Outcome::out_of_iterations;
+}
+
+}  // namespace brainshift

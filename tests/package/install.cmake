@@ -1,0 +1,16 @@
+# Installs into one folder and moves it to another: nothing installed may know where it was put.
+include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${BINARY} --prefix ${WORK}/first)
+file(RENAME ${WORK}/first ${PREFIX})
+
+file(GLOB_RECURSE texts ${PREFIX}/*.cmake ${PREFIX}/*.pc ${PREFIX}/*.hpp ${PREFIX}/*.h)
+foreach(path IN LISTS texts)
+  file(READ ${path} text)
+  foreach(place ${WORK} ${SOURCE} ${BINARY})
+    string(FIND "${text}" "${place}" at)
+    if(NOT at EQUAL -1)
+      message(FATAL_ERROR "${path} refers to ${place}")
+    endif()
+  endforeach()
+endforeach()

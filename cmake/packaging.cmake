@@ -8,9 +8,11 @@ if(NOT _version MATCHES "\"${PROJECT_VERSION}\"")
 endif()
 
 set(_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/brainshift)
-set(_licence "BSD-3-Clause")
+# Of the whole, as linked. CHOLMOD's Supernodal is GPL-2.0-or-later; METIS is Apache-2.0, which goes
+# with the GPL from version 3 on.
+set(_licence "BSD-3-Clause AND MPL-2.0 AND Apache-2.0")
 if(BRAINSHIFT_WITH_CHOLMOD)
-  set(_licence "BSD-3-Clause AND GPL-2.0-or-later")
+  set(_licence "GPL-3.0-or-later")
 endif()
 
 # Installs the library, for others brainshift::<name>, and the file brainshift-<component>-targets.cmake.
@@ -41,6 +43,7 @@ function(brainshift_pkg_config name description library requires private)
   endif()
   set(PC_LICENCE "${_licence}")
   file(RELATIVE_PATH PC_PREFIX "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
+  string(REGEX REPLACE "/$" "" PC_PREFIX "${PC_PREFIX}")
   configure_file(cmake/brainshift.pc.in ${name}.pc @ONLY)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endfunction()
@@ -64,7 +67,7 @@ if(TARGET brainshift_io)
 endif()
 if(TARGET brainshift_c)
   install(FILES include/brainshift/c/brainshift.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/brainshift/c)
-  brainshift_install(brainshift_c c c)
+  brainshift_install(brainshift_c c brainshift_c)
   brainshift_pkg_config(brainshift-c "The C face of libbrainshift" brainshift_c "" "")
 endif()
 

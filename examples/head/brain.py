@@ -117,6 +117,7 @@ def tags(nodes, tets, regions, pair, z_cut):
 def assemble(path, mid, z_cut):
     """mesh_head's output -> nodes, tets, regions, point data."""
     nodes, tets, labels = drop_islands(*read_mesh(path))
+    nodes[np.abs(nodes[:, 2] - z_cut) < 1e-2, 2] = z_cut  # CGAL finds the cut by bisection
     nodes = snap_to_midsurface(nodes, tets, labels, mid)
     nodes, tets, regions, pair = split(nodes, tets, labels)
     return nodes, tets, regions, tags(nodes, tets, regions, pair, z_cut)

@@ -108,4 +108,10 @@ def write(path, distance, mid, floor, curves):
         for curve in curves:
             print(len(curve), file=out)
             for p in curve:
-                print(*(repr(float(v)) for v in p), file=out)
+                print(*(f"{v:.7f}" for v in p), file=out)
+
+
+def voxel_axes(shape):
+    """Head coordinates of the voxels as three broadcastable arrays."""
+    axes = [o + frame.SCALE * np.arange(n) for n, o in zip(shape, grid_origin())]
+    return np.meshgrid(*axes, indexing="ij", sparse=True)

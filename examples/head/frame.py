@@ -46,16 +46,16 @@ OPTIC_MNI, OPTIC_RADIUS_MNI = np.array([0.0, 8.0, -20.0]), 9.0
 # STEM_HALF_WIDTH from the midline is brainstem; the cut goes through the cerebellar peduncles.
 STEM_BACK_MNI = np.array([[-72, -51], [-60, -49], [-50, -44], [-40, -39.5], [-30, -35.5],
                           [-20, -34.5], [-8, -37]], float)
-STEM_HALF_WIDTH = 18.0
+STEM_HALF_WIDTH_MNI = np.array([[-72, 11], [-50, 11], [-44, 17], [-8, 18]], float)
 
-# Outline (y, z) of what is one piece of tissue on the midline: corpus callosum, septum and fornix,
+# Outline (y, z) around what is one piece of tissue on the midline (wider than it where fluid is): corpus callosum, septum and fornix,
 # diencephalon with the (filled) third ventricle, midbrain, pons, medulla. Drawn on x = 0 of ch2.
 BRIDGE_MNI = np.array([
-    [-38, 17], [-38, 28], [-31, 31], [-22, 31], [-8, 31], [4, 29.5], [14, 25], [22, 20], [30, 14],
+    [-38, 9], [-38, 28], [-31, 31], [-22, 31], [-8, 31], [4, 29.5], [14, 25], [22, 20], [30, 14],
     [34.5, 5], [35, -1], [27, -4], [16, -3], [9, -6], [6, -11], [8, -17], [12, -20], [8, -24],
-    [0, -20], [-7, -16], [-12, -17], [-14, -21], [-10.5, -27], [-11, -37], [-16, -46], [-24, -51],
-    [-28, -60], [-29, -75], [-53, -75], [-48, -60], [-43, -50], [-39, -40], [-35, -30], [-35, -20],
-    [-38, -10], [-36, -3], [-31, 3], [-28, 9]], float)
+    [0, -20], [-6, -17], [-8, -21], [-7, -27], [-8, -37], [-13, -47], [-22, -54],
+    [-25, -60], [-26, -75], [-56, -75], [-52, -60], [-47, -50], [-43, -40], [-39, -30], [-39, -20],
+    [-42, -10], [-41, -3], [-37, 3], [-34, 8]], float)
 
 # Free edge of the falx (y, z) from the crista galli over the corpus callosum to its splenium, where
 # it meets the tentorium: low behind (a few mm from the splenium), high in front.

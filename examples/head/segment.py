@@ -18,13 +18,14 @@ from skimage.segmentation import watershed
 
 import frame
 import midsurface
-from volume import (closing, erode, dilate, largest, load, mni_axes, opening, signed_distance,
-                    smooth_distance, voxel)
+from volume import (closing, dilate, erode, largest, load, mni_axes, opening, smooth_distance,
+                    voxel)
 
 TISSUE = 62  # T1 value between cerebrospinal fluid (about 35) and grey matter (about 85)
 
 
-BRAIN_MARGIN = 1.2  # voxels of fluid kept between brain and wall everywhere
+BRAIN_MARGIN = 1.0  # voxels of fluid kept between brain and wall everywhere
+VAULT_OFFSET, BASE_OFFSET = 2.5, 0.5  # voxels between the closed hull and the skull
 
 
 def tissue_mask(t1, extracted):
@@ -55,7 +56,8 @@ def infratentorial_labels(t1, tissue):
     labels = watershed(-ndimage.gaussian_filter(t1, 0.7), seeds, mask=tissue)
 
     back = np.interp(z, *frame.STEM_BACK_MNI.T)  # y of the brainstem's posterior face
-    stem = (y > back) & (np.abs(x) < frame.STEM_HALF_WIDTH)
+    half_width = np.interp(z, *frame.STEM_HALF_WIDTH_MNI.T)
+    stem = (y > back) & (np.abs(x) < half_width)
     labels[(labels >= 2) & stem] = 3
     labels[(labels >= 2) & ~stem] = 2
     return labels
@@ -75,7 +77,7 @@ def ventricles(t1):
 def brain_distance(labels, t1):
     """Cerebrum + brainstem without sulci and ventricles; voxels. The brainstem goes on downwards
     below the cut so that the cut face is a clean section."""
-    x, y, z = mni_axes(t1.shape)
+    z = mni_axes(t1.shape)[2]
     solid = (labels == 1) | (labels == 3) | ventricles(t1)
     solid = largest(opening(ndimage.binary_fill_holes(closing(solid, 3.0)), 1.5))
     floor = voxel((0, 0, frame.STEM_CUT_MNI - 1))[2]
@@ -83,21 +85,31 @@ def brain_distance(labels, t1):
     return np.maximum(smooth_distance(solid, 1.6), frame.STEM_CUT_MNI - 10 - z)
 
 
-def cavity_distance(tissue, labels, brain, obstacle):
-    """Inner skull: closed hull of the whole brain + 1.5 mm, where the T1 signal falls to bone.
+def cavity_distance(tissue, brain, obstacle):
+    """Inner skull: closed hull of the whole brain plus the fluid that lies on it.
 
     A ball of 15 mm suits the convexity; at the base it would swallow the sphenoid wings and the
-    petrous bones, so a smaller one is used there."""
-    x, y, z = mni_axes(tissue.shape)
+    petrous bones, so a smaller one is used there. How far the skull is cannot be seen on T1 (fluid
+    and inner table are both dark over 3-5 mm outside the cortex). VAULT_OFFSET is chosen for a mean
+    gap of the convexity near the 2.9 mm of the literature; at the base the brain lies on the bone."""
+    z = mni_axes(tissue.shape)[2]
     whole = tissue | (brain < 0)
     hull = (closing(whole, 15.0) & (z > -5)) | closing(whole, 6.0)
-    skull = smooth_distance(hull, 2.5) - 1.5
+    t = np.clip((z + 20) / 25, 0, 1)
+    offset = BASE_OFFSET + (VAULT_OFFSET - BASE_OFFSET) * t**2 * (3 - 2 * t)
+    skull = smooth_distance(hull, 2.5) - offset
     # Thin fingers without brain in them (between petrous bone and cerebellum) are cut off.
     cavity = opening((skull < 0) & (obstacle > 0), 4.0) | (brain < BRAIN_MARGIN)
     cavity &= z > frame.CAVITY_FLOOR_MNI
     # Smoothing a mask loses some of the margin; where it does, the brain's own distance decides.
-    return np.minimum(smooth_distance(cavity, 1.5),
+    return np.minimum(smooth_distance(cavity, 2.0),
                       np.maximum(brain - BRAIN_MARGIN, frame.CAVITY_FLOOR_MNI - z))
+
+
+def in_mm(distance):
+    """Voxels -> mm of the head frame, rounded to 2^-12 mm: the mesh shall not hang on the last bits
+    of another version's Gaussian filter."""
+    return (np.round(distance * frame.SCALE * 4096) / 4096).astype(np.float32)
 
 
 def main(work):
@@ -111,14 +123,13 @@ def main(work):
     brain = brain_distance(labels, t1)
     cerebellum = smooth_distance(closing(labels == 2, 3.0), 1.6)
     obstacle = ndimage.gaussian_filter((cerebellum - brain) / 2, 1.0)
-    cavity = cavity_distance(tissue, labels, brain, obstacle)
+    cavity = cavity_distance(tissue, brain, obstacle)
     mid, rms = midsurface.fit(t1, cavity < -2)
     print(f"mid-surface: residual {rms:.2f} mm rms", flush=True)
     pathlib.Path(work).mkdir(parents=True, exist_ok=True)
-    np.savez(pathlib.Path(work) / "segmentation.npz", t1=t1.astype(np.uint8),
-             brain=brain * np.float32(frame.SCALE), cavity=cavity * np.float32(frame.SCALE),
-             obstacle=obstacle * np.float32(frame.SCALE), mid=mid, mid_rms=rms,
-             mask_volume_mni=float(tissue.sum()), tissue=tissue, labels=labels.astype(np.uint8))
+    np.savez_compressed(pathlib.Path(work) / "segmentation.npz", t1=t1.astype(np.uint8),
+                        brain=in_mm(brain), cavity=in_mm(cavity), obstacle=in_mm(obstacle),
+                        mid=mid, mid_rms=rms, mask_volume_mni=float(tissue.sum()))
 
 
 if __name__ == "__main__":

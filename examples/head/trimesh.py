@@ -69,7 +69,6 @@ def components(count, links):
 def pinched_vertices(triangles):
     """Vertices whose triangles do not form one fan: two parts of a surface touch in a point."""
     corner = triangles.ravel()
-    owner = np.repeat(np.arange(len(triangles)), 3)
     # Link corners (triangle, vertex) of triangles that share an edge at that vertex.
     keys, links = {}, []
     for t, triangle in enumerate(triangles):
@@ -83,7 +82,6 @@ def pinched_vertices(triangles):
     label = components(len(corner), np.array(links))
     pairs = np.unique(np.column_stack([corner, label]), axis=0)
     vertex, fans = np.unique(pairs[:, 0], return_counts=True)
-    del owner
     return vertex[fans > 1]
 
 
@@ -116,7 +114,7 @@ def point_triangle(points, a, b, c):
     best = np.full((len(points), len(a)), np.inf)
     for p, q in ((a, b), (b, c), (c, a)):
         edge = q - p
-        along = (points[:, None] - p) @ np.eye(3)
+        along = points[:, None] - p
         t = np.clip(np.einsum("nmk,mk->nm", along, edge) / np.einsum("mk,mk->m", edge, edge), 0, 1)
         best = np.minimum(best, np.linalg.norm(along - t[..., None] * edge, axis=2))
     normal = np.cross(b - a, c - a)

@@ -1,6 +1,7 @@
 #include "contact/reduction.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace brainshift {
 namespace {
@@ -62,21 +63,38 @@ Reduction::Reduction(Index blocks, const std::vector<NodeRow>& rows)
   }
 }
 
-void Reduction::add_row(const NodeRow& row) {
-  Block& b = m_blocks[std::size_t(row.block)];
-  if (b.held == 3) return;
-  Vec3 rest = row.normal;
-  Vec3 along = Vec3::Zero();
+// What of `normal` the rows of the block leave free; `along`: its parts along the held directions.
+Vec3 Reduction::Block::rest_of(const Vec3& normal, Vec3& along) const {
+  Vec3 rest = normal;
+  along.setZero();
   for (int pass = 0; pass < 2; ++pass) {  // twice is enough (Kahan, Parlett)
-    for (int k = 0; k < b.held; ++k) {
-      const double c = rest.dot(b.q.col(k));
+    for (int k = 0; k < held; ++k) {
+      const double c = rest.dot(q.col(k));
       along[k] += c;
-      rest -= c * b.q.col(k);
+      rest -= c * q.col(k);
     }
   }
+  return rest;
+}
+
+// A pair row is eliminated at the block given, or at its partner where the rows of the block leave
+// too little of its direction: a held block still holds its partner.
+void Reduction::add_row(NodeRow row) {
+  Vec3 along;
+  if (row.partner >= 0) {
+    const Block& here = m_blocks[std::size_t(row.block)];
+    const Block& there = m_blocks[std::size_t(row.partner)];
+    if (here.pair >= 0 || there.pair >= 0) return;
+    if (here.rest_of(row.normal, along).norm() < 0.5 * there.rest_of(row.normal, along).norm()) {
+      std::swap(row.block, row.partner);
+      row.normal = -row.normal;
+    }
+  }
+  Block& b = m_blocks[std::size_t(row.block)];
+  if (b.held == 3) return;
+  const Vec3 rest = b.rest_of(row.normal, along);
   const double length = rest.norm();
   if (!(length > dependence * row.normal.norm())) return;
-  if (row.partner >= 0 && b.pair >= 0) return;
   b.plain = false;
   b.q.col(b.held) = rest / length;
   for (int k = 0; k < b.held; ++k) b.lower(b.held, k) = along[k];

@@ -23,8 +23,8 @@ struct NodeRow {
 
 class Reduction {
  public:
-  // rows: in order of precedence; a row that depends on earlier ones of its block is left out and
-  // gets multiplier 0. A block may be the partner of at most one row, and must have none itself.
+  // rows: in order of precedence, pair rows last; a row that depends on earlier ones is left out
+  // and gets multiplier 0. A block may stand in one pair row only.
   Reduction(Index blocks, const std::vector<NodeRow>& rows);
 
   // A = T^T K T into a matrix whose pattern holds the pairs; fixed directions get `diagonal`.
@@ -53,8 +53,9 @@ class Reduction {
     Vec3 pair_normal = Vec3::Zero();
     Vec3 pair_response = Vec3::Zero(); // motion of the block for a unit value of the pair row
     Mat3 free() const;                 // q with the held columns zeroed
+    Vec3 rest_of(const Vec3& normal, Vec3& along) const;
   };
-  void add_row(const NodeRow& row);
+  void add_row(NodeRow row);
   Mat3 coupling(const Block& b) const;  // T_i Q_partner: from y of the partner to dx of the block
 
   std::vector<Block> m_blocks;

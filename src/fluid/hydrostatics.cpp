@@ -21,6 +21,22 @@ void check_faces(const Indices& faces, Index count, const std::string& what) {
   }
 }
 
+// A face wetted twice would carry its pressure twice.
+void check_wetted_once(const Csf& csf, Index face_count) {
+  Indices owner(std::size_t(face_count), -1);
+  for (Index i = 0; i < csf.compartment_count(); ++i) {
+    for (Index f : csf.compartment(i).wetted_faces) {
+      Index& seen = owner[std::size_t(f)];
+      if (seen >= 0) {
+        throw Error(ErrorCode::invalid_argument,
+                    "surface face " + std::to_string(f) + " is wetted twice, in compartment '" +
+                        csf.compartment(seen).name + "' and in '" + csf.compartment(i).name + "'");
+      }
+      seen = i;
+    }
+  }
+}
+
 std::string ml(double mm3) { return std::to_string(mm3 / mm3_per_ml) + " mL"; }
 
 }  // namespace
@@ -42,13 +58,16 @@ Hydrostatics::Hydrostatics(const Mesh& mesh, const Csf& csf, const Vec3& gravity
     for (std::size_t f = 0; f < c.body_faces.size(); ++f) {
       body.row(Eigen::Index(f)) = mesh.surface().row(c.body_faces[f]);
     }
-    require_closed(mesh.nodes(), body, "the tissue in compartment '" + c.name + "'");
+    if (body.rows() > 0) {   // a compartment may hold fluid alone
+      require_closed(mesh.nodes(), body, "the tissue in compartment '" + c.name + "'");
+    }
     m_compartments.push_back(c);
     m_rest_tissue.push_back(tissue_volume(std::size_t(i), mesh.nodes()));
     const Eigen::VectorXd x = c.wall_points * Vec3::UnitX();
     const double width = x.maxCoeff() - x.minCoeff();
     m_chimney = std::max(m_chimney, 0.01 * width * width);
   }
+  check_wetted_once(csf, Index(mesh.surface().rows()));
   m_reference_head = head_axis_top(m_up);
   if (std::isfinite(csf.reference_head())) {
     if (csf.reference_head() < m_reference_head) {

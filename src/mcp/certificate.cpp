@@ -10,7 +10,7 @@ namespace {
 constexpr double touching = 1e-9;  // of the largest term of the problem: rounding, not a gap
 
 struct Movable {
-  std::vector<Index> rows;       // inner ones first
+  std::vector<Index> rows;        // inner ones first
   std::vector<double> direction;  // 0: both ways, +1: up only, -1: down only
   Index inner = 0;
 };

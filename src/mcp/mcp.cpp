@@ -38,8 +38,7 @@ Attempt automatic(const Problem& problem, const McpOptions& options, double tole
 
 Attempt run(const Problem& problem, const McpOptions& options, double tolerance) {
   switch (options.method) {
-    case McpMethod::newton:
-      return mcp::solve_by_newton(problem, tolerance, options.max_iterations);
+    case McpMethod::newton: return mcp::solve_by_newton(problem, tolerance, options.max_iterations);
     case McpMethod::pivoting: return mcp::solve_by_pivoting(problem, options.max_pivots);
     case McpMethod::gauss_seidel:
       return mcp::solve_by_gauss_seidel(problem, tolerance, options.max_sweeps);
@@ -83,9 +82,9 @@ McpReport certified(const Problem& problem, const Eigen::VectorXd& z, const Atte
   } else if (!attempt.conflict.empty()) {
     report.status = McpStatus::infeasible;
     report.conflict = attempt.conflict;
-    report.message = "infeasible: " + names_of(attempt.conflict) +
-                     (attempt.conflict.size() == 1 ? " cannot be satisfied"
-                                                   : " contradict each other");
+    report.message =
+        "infeasible: " + names_of(attempt.conflict) +
+        (attempt.conflict.size() == 1 ? " cannot be satisfied" : " contradict each other");
   } else {
     report.message = "not converged: the residual is largest in row " + std::to_string(error.row);
   }
@@ -109,7 +108,8 @@ McpSolution solve_mcp(const Eigen::MatrixXd& M, const Eigen::VectorXd& q,
   McpSolution solution;
   solution.z = unscaled(attempt.z, scaling, original);
   solution.w = original.w(solution.z);
-  solution.report = certified(problem, solution.z.cwiseQuotient(scaling.column), attempt, tolerance);
+  solution.report =
+      certified(problem, solution.z.cwiseQuotient(scaling.column), attempt, tolerance);
   const bool finite = solution.z.allFinite() && solution.w.allFinite();
   if (!finite && solution.report.status == McpStatus::solved) {
     solution.report.status = McpStatus::not_converged;

@@ -69,7 +69,7 @@ VectorXd sub_vector(const VectorXd& v, const std::vector<Index>& rows) {
   return part;
 }
 
-VectorXd solve_on_sides(const Problem& problem, const std::vector<Side>& sides) {
+SideSolution solve_on_sides(const Problem& problem, const std::vector<Side>& sides) {
   std::vector<Index> inner;
   VectorXd z = VectorXd::Zero(problem.size());
   for (Index i = 0; i < problem.size(); ++i) {
@@ -80,9 +80,10 @@ VectorXd solve_on_sides(const Problem& problem, const std::vector<Side>& sides) 
     }
   }
   const VectorXd right = -sub_vector(problem.w(z), inner);
-  const VectorXd solution = MinimumNormSolver(sub_matrix(problem.M, inner, inner)).solve(right);
+  const MinimumNormSolver solver(sub_matrix(problem.M, inner, inner));
+  const VectorXd solution = solver.solve(right);
   for (std::size_t i = 0; i < inner.size(); ++i) z[inner[i]] = solution[i];
-  return z;
+  return {z, solver.rank() == static_cast<Index>(inner.size())};
 }
 
 }  // namespace brainshift::mcp

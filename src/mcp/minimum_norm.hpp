@@ -39,6 +39,10 @@ MatrixXd sub_matrix(const MatrixXd& M, const std::vector<Index>& rows,
 VectorXd sub_vector(const VectorXd& v, const std::vector<Index>& rows);
 
 // z with the rows that `sides` puts on a bound held there and w = 0 (as near as can be) elsewhere.
-VectorXd solve_on_sides(const Problem& problem, const std::vector<Side>& sides);
+struct SideSolution {
+  VectorXd z;
+  bool regular;  // the rows between their bounds are independent
+};
+SideSolution solve_on_sides(const Problem& problem, const std::vector<Side>& sides);
 
 }  // namespace brainshift::mcp

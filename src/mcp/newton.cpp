@@ -8,6 +8,10 @@
 namespace brainshift::mcp {
 namespace {
 
+// Undamped steps without a gain, once dependent rows were met: they wander there, whereas on
+// P-matrices they are finite, however long they go without a gain (n steps on Murty's).
+constexpr int patience = 8;
+
 double merit(const Problem& problem, const VectorXd& z) {
   return natural_map(problem, z, problem.w(z)).squaredNorm();
 }
@@ -22,12 +26,12 @@ double step_length(const Problem& problem, const VectorXd& z, const VectorXd& st
   return 0.0;
 }
 
-void keep_better(const Problem& problem, const VectorXd& z, Attempt& best) {
+bool keep_better(const Problem& problem, const VectorXd& z, Attempt& best) {
   const double error = natural_error(problem, z).value;
-  if (best.z.size() == 0 || error < best.error) {
-    best.z = z;
-    best.error = error;
-  }
+  if (best.z.size() != 0 && !(error < best.error)) return false;
+  best.z = z;
+  best.error = error;
+  return true;
 }
 
 }  // namespace
@@ -39,10 +43,15 @@ Attempt run_newton(const Problem& problem, const VectorXd& start, bool damped, d
   keep_better(problem, z, best);
   // An undamped step depends on the sides alone: sides seen before mean a cycle.
   std::set<std::vector<Side>> seen;
+  int last_gain = 0;
+  bool regular = true;
   while (best.error > tolerance && best.iterations < max_iterations) {
+    if (!damped && !regular && best.iterations - last_gain >= patience) break;
     const std::vector<Side> sides = sides_of(problem, z, problem.w(z));
     if (!damped && !seen.insert(sides).second) break;
-    const VectorXd target = solve_on_sides(problem, sides);
+    const SideSolution solution = solve_on_sides(problem, sides);
+    const VectorXd& target = solution.z;
+    regular = regular && solution.regular;
     ++best.iterations;
     if (!target.allFinite()) break;
     if (damped) {
@@ -52,7 +61,7 @@ Attempt run_newton(const Problem& problem, const VectorXd& start, bool damped, d
     } else {
       z = target;
     }
-    keep_better(problem, z, best);
+    if (keep_better(problem, z, best)) last_gain = best.iterations;
   }
   return best;
 }
@@ -69,12 +78,12 @@ Attempt solve_by_newton(const Problem& problem, double tolerance, int max_iterat
     best.iterations = next.iterations;
     best.conflict = next.conflict;
   };
-  if (best.error > tolerance) {
-    const int budget = (max_iterations - best.iterations) / 3;
-    try_next(run_newton(problem, best.z, true, tolerance, budget));
-  }
-  if (best.error > tolerance) {
+  const auto unsettled = [&] { return !(best.error <= tolerance) && best.conflict.empty(); };
+  if (unsettled()) {
     try_next(solve_by_proximal_point(problem, tolerance, max_iterations - best.iterations));
+  }
+  if (unsettled()) {
+    try_next(run_newton(problem, best.z, true, tolerance, max_iterations - best.iterations));
   }
   return best;
 }

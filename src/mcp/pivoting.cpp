@@ -23,7 +23,7 @@ Attempt solve_by_pivoting(const Problem& problem, int max_pivots) {
   attempt.error = natural_error(problem, attempt.z).value;
   if (result.end == LemkeResult::End::solved) {
     const std::vector<Side> sides = sides_of(problem, attempt.z, problem.w(attempt.z));
-    const VectorXd polished = problem.clamp(solve_on_sides(problem, sides));
+    const VectorXd polished = problem.clamp(solve_on_sides(problem, sides).z);
     const double error = natural_error(problem, polished).value;
     if (error < attempt.error) {
       attempt.z = polished;

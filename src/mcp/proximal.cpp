@@ -21,8 +21,8 @@ Attempt solve_shifted(const Problem& shifted, const VectorXd& z, double toleranc
 }  // namespace
 
 Attempt solve_by_proximal_point(const Problem& problem, double tolerance, int max_iterations) {
-  // of entries of order one: four decades above the rank tolerance, small enough that a few
-  // iterations do (each divides the error by eigenvalue / shift)
+  // Of entries of order one. The first, large one is for finding the sides; each later iteration
+  // divides the error by eigenvalue / shift; the last stays clear of the rank tolerance, 1e-10.
   constexpr double first_shift = 1e-2, last_shift = 1e-8, largest_shift = 1.0;
   const VectorXd start = problem.clamp(VectorXd::Zero(problem.size()));
   Attempt best{start, natural_error(problem, start).value, 0, {}};
@@ -52,7 +52,7 @@ Attempt solve_by_proximal_point(const Problem& problem, double tolerance, int ma
 
     offer(inner.z);
     // the sides are right long before the last digits are: solve on them without the shift
-    offer(problem.clamp(solve_on_sides(problem, sides_of(problem, inner.z, problem.w(inner.z)))));
+    offer(problem.clamp(solve_on_sides(problem, sides_of(problem, inner.z, problem.w(inner.z))).z));
     if (best.error > tolerance) {
       best.conflict = contradiction(problem, inner.z - z);
       if (!best.conflict.empty()) {

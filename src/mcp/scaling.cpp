@@ -18,8 +18,8 @@ Scaling scaling_of(const MatrixXd& M) {
   // A common unit goes into a power of two first: in other units (2^k) the rest is the same bit
   // for bit.
   const double largest_diagonal = M.diagonal().maxCoeff();
-  const double unit = power_of_two_near(largest_diagonal > 0.0 ? largest_diagonal
-                                                               : M.cwiseAbs().maxCoeff());
+  const double unit =
+      power_of_two_near(largest_diagonal > 0.0 ? largest_diagonal : M.cwiseAbs().maxCoeff());
   Scaling scaling{VectorXd::Constant(n, 1.0 / unit), VectorXd::Ones(n)};
   for (Index i = 0; i < n; ++i) {
     if (!(M(i, i) > 0.0)) continue;

@@ -39,8 +39,8 @@ void check_bounds(Eigen::Index i, double lower, double upper) {
 void validate(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, const Eigen::VectorXd& lower,
               const Eigen::VectorXd& upper, const McpOptions& options) {
   if (M.rows() != M.cols()) {
-    refuse(ErrorCode::size_mismatch, "M is " + std::to_string(M.rows()) + " x " +
-                                         std::to_string(M.cols()) + ", not square");
+    refuse(ErrorCode::size_mismatch,
+           "M is " + std::to_string(M.rows()) + " x " + std::to_string(M.cols()) + ", not square");
   }
   check_size("q", q.size(), M.rows());
   check_size("lower", lower.size(), M.rows());

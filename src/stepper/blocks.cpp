@@ -64,7 +64,8 @@ Indices find_partners(const ConstraintSet& set, const Indices& block_of, Index b
                         (a == b ? " are tied to each other" : " stand in another pair already"));
       }
       used[std::size_t(a)] = used[std::size_t(b)] = true;
-      partner[std::size_t(a)] = b;
+      partner[std::size_t(a)] = b;   // either may follow the other
+      partner[std::size_t(b)] = a;
     }
   }
   return partner;

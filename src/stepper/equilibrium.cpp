@@ -112,6 +112,9 @@ void Equilibrium::check_supported() const {
   }
   for (std::size_t r = 0; r < m_contacts.size(); ++r) {
     touched[std::size_t(root(mesh().components()[std::size_t(m_contacts.mesh_node(r))]))] = true;
+    if (m_contacts.row(r).partner < 0) continue;
+    const Index partner = m_contacts.group_of(r).partners[m_contacts.row(r).item];
+    touched[std::size_t(root(mesh().components()[std::size_t(partner)]))] = true;
   }
   for (Index b = 0; b < bodies; ++b) {
     if (root(b) != b || touched[std::size_t(b)]) continue;

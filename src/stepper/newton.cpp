@@ -178,7 +178,7 @@ bool Newton::find_step(Step& step, bool fresh) {
   }
   linearise();
   choose_active();
-  for (int change = 0;; ++change) {
+  for (int change = 0;;) {
     const Reduction reduction = make_reduction();
     reduction.reduce(m_cache.stiffness, m_cache.stiffness.mean_diagonal(), m_cache.reduced);
     if (!m_definite) {
@@ -186,7 +186,7 @@ bool Newton::find_step(Step& step, bool fresh) {
       ++m_report.factorisations;
       if (!m_cache.solver->factorise(m_cache.reduced)) {
         ++m_report.shifted_factorisations;
-        m_definite = true;   // from now on in this solve
+        m_definite = true;   // for this iteration
         linearise();
         continue;
       }
@@ -197,7 +197,7 @@ bool Newton::find_step(Step& step, bool fresh) {
     if (!step.dx.allFinite()) return false;
     const std::vector<char> used = m_active;
     if (!update_active(step)) return true;
-    if (change + 1 >= max_active_set_changes) {
+    if (++change >= max_active_set_changes) {
       m_active = used;
       return true;
     }
@@ -357,6 +357,7 @@ Newton::Outcome Newton::solve(MechanicalState& state, const Eigen::VectorXd& off
       m_definite = true;
       continue;
     }
+    m_definite = false;
     previous = last;
     last = max_norm(step.dx) * part;
     m_state.u = std::move(next.u);

@@ -75,37 +75,34 @@ TEST(SurfaceDistance, SignIsRightAllAroundEdgesAndCornersWhereNormalsOfTriangles
     }
 }
 
-// Nodes where forty thin triangles of one side meet two of another: a plain mean of their normals
-// all but ignores the other side, the angle-weighted one does not.
-TEST(SurfaceDistance, SignDoesNotDependOnHowAFaceIsCutIntoTriangles) {
-  const auto box = make_box_surface({10, 10, 10});
-  Points points(8 + 40, 3);
-  points.topRows(8) = box.points;
-  Triangles triangles(12 + 2 * 40, 3);
-  triangles.topRows(12) = box.triangles;  // rows 4 and 5: the side y = 0
-  // Triangle 0 1 5 of the side y = 0 becomes a fan around node 0.
-  Index row = 4;
-  Index last = 1;
-  for (Index i = 0; i < 40; ++i) {
-    points.row(8 + i) << 10, 0, 10.0 * (i + 1) / 41;
-    triangles.row(i == 0 ? row : 11 + i) << 0, last, 8 + i;
-    last = 8 + i;
+// A slender tet, one side and the base cut into forty triangles each. At its sharp edges the normal
+// of one triangle has the wrong sign for part of the points nearest to them; at its tip and corners
+// so has the plain mean of the normals, which forty triangles of one side outvote.
+TEST(SurfaceDistance, SignIsRightAtSharpEdgesAndTipsHoweverTheirSidesAreCut) {
+  const Vec3 a(0, 0, 0), b(2, 0, 0), c(0, 2, 0), tip(0.3, 0.3, 12);
+  const Index pieces = 40;
+  Points points(pieces + 3, 3);  // a .. b, c, tip
+  for (Index i = 0; i <= pieces; ++i) points.row(i) = a + (b - a) * (double(i) / pieces);
+  points.bottomRows<2>() << c.transpose(), tip.transpose();
+  const Index at_b = pieces, at_c = pieces + 1, at_tip = pieces + 2;
+  Triangles triangles(2 * pieces + 2, 3);
+  for (Index i = 0; i < pieces; ++i) {
+    triangles.row(2 * i) << i, i + 1, at_tip;
+    triangles.row(2 * i + 1) << i + 1, i, at_c;
   }
-  triangles.row(51) << 0, last, 5;
-  // ... and triangle 1 7 5 of the side x = 10 a fan around node 7.
-  ASSERT_EQ(triangles.row(11), (Eigen::Matrix<Index, 1, 3>(1, 7, 5)));
-  last = 1;
-  for (Index i = 0; i < 40; ++i) {
-    triangles.row(i == 0 ? 11 : 51 + i) << 7, 8 + i, last;
-    last = 8 + i;
-  }
-  triangles.row(91) << 7, 5, last;
+  triangles.bottomRows<2>() << at_b, at_c, at_tip, at_c, 0, at_tip;
   const SurfaceDistance distance(points, triangles, SurfaceKind::cavity);
+
+  const Vec3 sides[4][3] = {{a, b, tip}, {b, a, c}, {b, c, tip}, {c, a, tip}};
   std::mt19937 generator(4);
-  for (int n = 0; n < 2000; ++n) {
-    const Vec3 p = random_point(generator, -3, 13);
-    EXPECT_NEAR(distance(p).distance, box_distance({10, 10, 10}, p), rounding) << p.transpose();
-  }
+  for (const Vec3& centre : {a, b, c, tip, Vec3(1, 1, 0), Vec3(0.15, 0.15, 6), Vec3(1, 0, 3)})
+    for (int n = 0; n < 500; ++n) {
+      const Vec3 p = centre + random_point(generator, -1, 1);
+      bool inside = true;
+      for (const auto& side : sides)
+        inside &= (side[1] - side[0]).cross(side[2] - side[0]).dot(p - side[0]) < 0.0;
+      EXPECT_EQ(distance(p).distance > 0.0, inside) << p.transpose();
+    }
 }
 
 TEST(SurfaceDistance, OfASphereDiffersByNoMoreThanItsFacetsFromTheRoundOne) {

@@ -91,8 +91,8 @@ TEST(GaussSeidel, agrees_with_newton_on_definite_problems) {
 }
 
 TEST(NotConverged, is_said_when_the_budget_is_too_small) {
-  const Case c = one_sided(murty_matrix(10) * murty_matrix(10).transpose(),
-                           VectorXd::Constant(10, -1.0));
+  const Case c =
+      one_sided(murty_matrix(10) * murty_matrix(10).transpose(), VectorXd::Constant(10, -1.0));
   McpOptions options;
   options.method = McpMethod::pivoting;
   options.max_pivots = 1;

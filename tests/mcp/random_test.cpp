@@ -96,8 +96,8 @@ TEST(RandomProblems, rows_and_columns_scaled_symmetrically) {
     SCOPED_TRACE(trial);
     const Eigen::Index n = 3 + trial % 20;
     const MatrixXd B = random_matrix(n, n, generator);
-    const Known known = around_a_solution(B * B.transpose() / n + 0.1 * MatrixXd::Identity(n, n),
-                                          0.0, generator);
+    const Known known =
+        around_a_solution(B * B.transpose() / n + 0.1 * MatrixXd::Identity(n, n), 0.0, generator);
     VectorXd d(n);
     for (Eigen::Index i = 0; i < n; ++i) d[i] = std::pow(10.0, exponent(generator));
     const VectorXd inverse = d.cwiseInverse();
@@ -152,8 +152,8 @@ TEST(RandomProblems, a_diagonal_over_twelve_decades_keeps_small_forces_right) {
     q[i] = i % 3 ? -1.0 : 1.0;
   }
   const Case c = one_sided(MatrixXd(d.asDiagonal()), q);
-  for (const McpMethod method : {McpMethod::automatic, McpMethod::pivoting,
-                                 McpMethod::gauss_seidel}) {
+  for (const McpMethod method :
+       {McpMethod::automatic, McpMethod::pivoting, McpMethod::gauss_seidel}) {
     const McpSolution s = solve(c, method);
     ASSERT_EQ(s.report.status, McpStatus::solved);
     for (Eigen::Index i = 0; i < n; ++i) {

@@ -1,4 +1,5 @@
 # A CMake project of its own finds the package by its components, builds and runs.
+cmake_minimum_required(VERSION 3.22)
 include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
 set(build ${WORK}/by_find_package)
 string(REPLACE ";" "," components "${COMPONENTS}")

@@ -1,4 +1,5 @@
 # Installs into one folder and moves it to another: nothing installed may know where it was put.
+cmake_minimum_required(VERSION 3.22)
 include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BINARY} --prefix ${WORK}/first)

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "brainshift/stepper.hpp"
 #include "support/shapes.hpp"
 

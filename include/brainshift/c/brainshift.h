@@ -44,9 +44,9 @@ extern "C" {
 
 /* BRS_VERSION of the library that runs, and the same as text: "0.1.0". */
 BRS_API int32_t brs_version(void);
-BRS_API const char *brs_version_string(void);
+BRS_API const char* brs_version_string(void);
 /* What the library was built with, and the licence that holds for the whole of it. */
-BRS_API const char *brs_build_info(void);
+BRS_API const char* brs_build_info(void);
 
 /* ---- status -------------------------------------------------------------------------------- */
 
@@ -89,7 +89,7 @@ enum {
 };
 
 /* "BRS_OK" and so on; "unknown status" for any other number. */
-BRS_API const char *brs_status_name(brs_status status);
+BRS_API const char* brs_status_name(brs_status status);
 
 /* ---- context: messages, progress, cancel ----------------------------------------------------- */
 
@@ -97,13 +97,13 @@ typedef struct brs_context brs_context;
 
 /* header_version: BRS_VERSION. BRS_ERROR_VERSION if that header does not go with this library:
  * another major version, another minor one before 1.0, or a header newer than the library. */
-BRS_API brs_status brs_context_create(int32_t header_version, brs_context **context);
+BRS_API brs_status brs_context_create(int32_t header_version, brs_context** context);
 /* Other handles of the context stay usable. */
-BRS_API brs_status brs_context_destroy(brs_context *context);
+BRS_API brs_status brs_context_destroy(brs_context* context);
 
 /* What the last call had to say, one sentence; "" after BRS_OK. Valid until the next call in the
  * context; callable from the thread that made the call, and from a callback. Never NULL. */
-BRS_API const char *brs_context_message(const brs_context *context);
+BRS_API const char* brs_context_message(const brs_context* context);
 
 typedef struct brs_progress {
   int64_t struct_size;
@@ -114,14 +114,14 @@ typedef struct brs_progress {
 
 /* Non-zero ends the solve with BRS_CANCELLED. Every call into the same context is refused with
  * BRS_ERROR_BUSY, messages and cancel apart. Do not longjmp out. */
-typedef int32_t (*brs_progress_fn)(const brs_progress *progress, void *user);
+typedef int32_t (*brs_progress_fn)(const brs_progress* progress, void* user);
 
 /* Called after every Newton iteration of any solve in the context; NULL: no callback. */
-BRS_API brs_status brs_context_set_progress(brs_context *context, brs_progress_fn progress,
-                                            void *user);
+BRS_API brs_status brs_context_set_progress(brs_context* context, brs_progress_fn progress,
+                                            void* user);
 /* While set (non-zero), solves end with BRS_CANCELLED after their next Newton iteration. It stays
  * set until it is withdrawn (0). May be called from any thread at any time; never busy. */
-BRS_API brs_status brs_context_set_cancel(brs_context *context, int32_t cancel);
+BRS_API brs_status brs_context_set_cancel(brs_context* context, int32_t cancel);
 
 /* ---- mesh ------------------------------------------------------------------------------------ */
 
@@ -131,19 +131,19 @@ typedef struct brs_mesh brs_mesh;
  * non-zero turns those of negative volume instead of refusing them. regions: tet_count labels, or
  * NULL for all 0. Errors name the first culprit: EMPTY, NOT_FINITE, INDEX_OUT_OF_RANGE,
  * INVERTED_ELEMENT, DEGENERATE_ELEMENT, DUPLICATE_ELEMENT, ORPHAN_NODE, SIZE. */
-BRS_API brs_status brs_mesh_create(brs_context *context, const double *nodes, int64_t node_count,
-                                   const int32_t *tets, int64_t tet_count, const int32_t *regions,
-                                   int32_t orient, brs_mesh **mesh);
-BRS_API brs_status brs_mesh_destroy(brs_mesh *mesh);
+BRS_API brs_status brs_mesh_create(brs_context* context, const double* nodes, int64_t node_count,
+                                   const int32_t* tets, int64_t tet_count, const int32_t* regions,
+                                   int32_t orient, brs_mesh** mesh);
+BRS_API brs_status brs_mesh_destroy(brs_mesh* mesh);
 
 /* Boundary faces, count x 3 nodes, outward. Valid as long as the mesh. */
-BRS_API brs_status brs_mesh_surface(brs_mesh *mesh, const int32_t **triangles, int64_t *count);
+BRS_API brs_status brs_mesh_surface(brs_mesh* mesh, const int32_t** triangles, int64_t* count);
 /* Rows of the surface that belong to tets of `region`, without those whose nodes are all among
  * `dry_nodes` (a cut, a seam, a base), ascending. *count: how many there are; the first `capacity`
  * of them are written to `faces`. INDEX_OUT_OF_RANGE, SIZE. */
-BRS_API brs_status brs_mesh_faces(brs_mesh *mesh, int32_t region, const int32_t *dry_nodes,
-                                  int64_t dry_count, int32_t *faces, int64_t capacity,
-                                  int64_t *count);
+BRS_API brs_status brs_mesh_faces(brs_mesh* mesh, int32_t region, const int32_t* dry_nodes,
+                                  int64_t dry_count, int32_t* faces, int64_t capacity,
+                                  int64_t* count);
 
 /* ---- rigid obstacle surfaces: skull, tentorium, falx ------------------------------------------- */
 
@@ -160,42 +160,45 @@ typedef struct brs_surface_options {
   double band;         /* mm, 25; the distance is exact to the grid within this of the surface */
 } brs_surface_options;
 
-BRS_API brs_status brs_surface_options_init(brs_surface_options *options, int64_t struct_size);
+BRS_API brs_status brs_surface_options_init(brs_surface_options* options, int64_t struct_size);
 
 /* points: point_count x 3, mm. triangles: triangle_count x 3. options: NULL for the defaults.
  * SURFACE_NOT_CLOSED, DEGENERATE_ELEMENT, INDEX_OUT_OF_RANGE, NOT_FINITE, INVALID_ARGUMENT, SIZE. */
-BRS_API brs_status brs_surface_create(brs_context *context, int32_t kind, const double *points,
-                                      int64_t point_count, const int32_t *triangles,
-                                      int64_t triangle_count, const brs_surface_options *options,
-                                      brs_surface **surface);
-BRS_API brs_status brs_surface_destroy(brs_surface *surface);
+BRS_API brs_status brs_surface_create(brs_context* context, int32_t kind, const double* points,
+                                      int64_t point_count, const int32_t* triangles,
+                                      int64_t triangle_count, const brs_surface_options* options,
+                                      brs_surface** surface);
+BRS_API brs_status brs_surface_destroy(brs_surface* surface);
+/* distances: count, mm, signed, at the points (count x 3, mm). SIZE, NOT_FINITE. */
+BRS_API brs_status brs_surface_distance(brs_surface* surface, const double* points, int64_t count,
+                                        double* distances);
 
 /* ---- scene: what a stepper is made from -------------------------------------------------------- */
 
 typedef struct brs_scene brs_scene;
 
 /* Without CSF and constraints, gravity (0, 0, -9810) mm/s^2, balanced reference. */
-BRS_API brs_status brs_scene_create(brs_context *context, brs_mesh *mesh, brs_scene **scene);
-BRS_API brs_status brs_scene_destroy(brs_scene *scene);
+BRS_API brs_status brs_scene_create(brs_context* context, brs_mesh* mesh, brs_scene** scene);
+BRS_API brs_status brs_scene_destroy(brs_scene* scene);
 
 typedef struct brs_material {
   int64_t struct_size;
-  const char *law; /* "linear", "corotational", "st_venant_kirchhoff", "stable_neo_hookean" */
+  const char* law; /* "linear", "corotational", "st_venant_kirchhoff", "stable_neo_hookean" */
   double young;    /* kPa, > 0 */
   double poisson;  /* -1 < poisson < 0.5 */
   double density;  /* kg/mm^3, >= 0 */
 } brs_material;
 
 /* Law NULL, numbers NaN: all of them must be given. */
-BRS_API brs_status brs_material_init(brs_material *material, int64_t struct_size);
+BRS_API brs_status brs_material_init(brs_material* material, int64_t struct_size);
 /* Every region of the mesh needs one; a second one replaces the first. INVALID_ARGUMENT. */
-BRS_API brs_status brs_scene_set_material(brs_scene *scene, int32_t region,
-                                          const brs_material *material);
+BRS_API brs_status brs_scene_set_material(brs_scene* scene, int32_t region,
+                                          const brs_material* material);
 /* gravity: 3 numbers, mm/s^2. NOT_FINITE. */
-BRS_API brs_status brs_scene_set_gravity(brs_scene *scene, const double *gravity);
+BRS_API brs_status brs_scene_set_gravity(brs_scene* scene, const double* gravity);
 /* Non-zero: the mesh is an image taken under gravity and full CSF, in balance with them, and loads
  * are differences from that. 0: the mesh is free of load; gravity and CSF act in full. */
-BRS_API brs_status brs_scene_set_balanced_reference(brs_scene *scene, int32_t balanced);
+BRS_API brs_status brs_scene_set_balanced_reference(brs_scene* scene, int32_t balanced);
 
 enum {
   BRS_CSF_SEPARATE = 0,     /* each compartment has its own level; one that is closed stays full */
@@ -204,27 +207,27 @@ enum {
 
 /* density: kg/mm^3, > 0. model: above. reference_head: level of the full fluid, mm along -gravity
  * from the origin; NaN: the top of the highest wall. Needs a compartment. INVALID_ARGUMENT. */
-BRS_API brs_status brs_scene_set_csf(brs_scene *scene, double density, int32_t model,
+BRS_API brs_status brs_scene_set_csf(brs_scene* scene, double density, int32_t model,
                                      double reference_head);
 
 typedef struct brs_compartment {
   int64_t struct_size;
-  const char *name;
-  const double *wall_points; /* closed rigid wall around tissue, fluid and air: count x 3, mm */
+  const char* name;
+  const double* wall_points; /* closed rigid wall around tissue, fluid and air: count x 3, mm */
   int64_t wall_point_count;
-  const int32_t *wall_triangles; /* count x 3, outward */
+  const int32_t* wall_triangles; /* count x 3, outward */
   int64_t wall_triangle_count;
-  const int32_t *body_faces; /* rows of the mesh surface: closed surface of the tissue inside */
+  const int32_t* body_faces; /* rows of the mesh surface: closed surface of the tissue inside */
   int64_t body_face_count;
-  const int32_t *wetted_faces; /* the part of it that fluid can wet */
+  const int32_t* wetted_faces; /* the part of it that fluid can wet */
   int64_t wetted_face_count;
 } brs_compartment;
 
-BRS_API brs_status brs_compartment_init(brs_compartment *compartment, int64_t struct_size);
+BRS_API brs_status brs_compartment_init(brs_compartment* compartment, int64_t struct_size);
 /* After brs_scene_set_csf. index: of the compartment, from 0, or NULL. INVALID_ARGUMENT,
  * SURFACE_NOT_CLOSED, INDEX_OUT_OF_RANGE, SIZE; face numbers are checked by brs_stepper_create. */
-BRS_API brs_status brs_scene_add_compartment(brs_scene *scene, const brs_compartment *compartment,
-                                             int32_t *index);
+BRS_API brs_status brs_scene_add_compartment(brs_scene* scene, const brs_compartment* compartment,
+                                             int32_t* index);
 
 /* ---- constraints: groups with a name and an id ---------------------------------------------------
  * nodes: count numbers. id: written if not NULL; stays valid in the steppers made from the scene.
@@ -233,26 +236,27 @@ BRS_API brs_status brs_scene_add_compartment(brs_scene *scene, const brs_compart
 enum { BRS_AXIS_X = 1, BRS_AXIS_Y = 2, BRS_AXIS_Z = 4, BRS_AXES = 7 };
 
 /* The displacement of the nodes is zero along `axes`, a sum of the above. */
-BRS_API brs_status brs_scene_add_fixed(brs_scene *scene, const char *name, const int32_t *nodes,
-                                       int64_t count, int32_t axes, int32_t *id);
+BRS_API brs_status brs_scene_add_fixed(brs_scene* scene, const char* name, const int32_t* nodes,
+                                       int64_t count, int32_t axes, int32_t* id);
 /* nodes[i] and partners[i] have the same displacement. */
-BRS_API brs_status brs_scene_add_tied(brs_scene *scene, const char *name, const int32_t *nodes,
-                                      const int32_t *partners, int64_t count, int32_t *id);
+BRS_API brs_status brs_scene_add_tied(brs_scene* scene, const char* name, const int32_t* nodes,
+                                      const int32_t* partners, int64_t count, int32_t* id);
 /* Springs to the rest position. stiffness: mN/mm, one per node, or one for all
  * (stiffness_count 1). SIZE_MISMATCH. */
-BRS_API brs_status brs_scene_add_support(brs_scene *scene, const char *name, const int32_t *nodes,
-                                         int64_t count, const double *stiffness,
-                                         int64_t stiffness_count, int32_t *id);
-/* Nodes stay on the positive (side 1) or negative (side -1) side of the surface, `offset` mm away
- * at least, without friction. */
-BRS_API brs_status brs_scene_add_obstacle(brs_scene *scene, const char *name, const int32_t *nodes,
-                                          int64_t count, brs_surface *surface, int32_t side,
-                                          double offset, int32_t *id);
+BRS_API brs_status brs_scene_add_support(brs_scene* scene, const char* name, const int32_t* nodes,
+                                         int64_t count, const double* stiffness,
+                                         int64_t stiffness_count, int32_t* id);
+/* Nodes stay on the positive (side 1) or negative (side -1) side of the surface, without friction.
+ * offsets: mm kept from it, one per node, or one for all (offset_count 1), or none (0). A node's own
+ * distance at rest, brs_surface_distance(), makes it touch from the beginning. SIZE_MISMATCH. */
+BRS_API brs_status brs_scene_add_obstacle(brs_scene* scene, const char* name, const int32_t* nodes,
+                                          int64_t count, brs_surface* surface, int32_t side,
+                                          const double* offsets, int64_t offset_count, int32_t* id);
 /* nodes[i] and partners[i] may part and slide, not pass through each other. normals: count x 3,
  * unit length, from partner to node. */
-BRS_API brs_status brs_scene_add_opposing(brs_scene *scene, const char *name, const int32_t *nodes,
-                                          const int32_t *partners, const double *normals,
-                                          int64_t count, int32_t *id);
+BRS_API brs_status brs_scene_add_opposing(brs_scene* scene, const char* name, const int32_t* nodes,
+                                          const int32_t* partners, const double* normals,
+                                          int64_t count, int32_t* id);
 
 /* ---- stepper: the state, and the solves that change it ------------------------------------------- */
 
@@ -268,21 +272,21 @@ typedef struct brs_stepper_options {
   double initial_penetration;       /* 1e-6, accepted at the start, relative to the diameter */
 } brs_stepper_options;
 
-BRS_API brs_status brs_stepper_options_init(brs_stepper_options *options, int64_t struct_size);
+BRS_API brs_status brs_stepper_options_init(brs_stepper_options* options, int64_t struct_size);
 
 /* Copies the scene, which may be changed or destroyed afterwards. options: NULL for the defaults.
  * Errors name what is wrong with the scene: INVALID_ARGUMENT, EMPTY, INDEX_OUT_OF_RANGE,
  * SURFACE_NOT_CLOSED, INITIAL_PENETRATION, CONFLICTING_CONSTRAINTS, FLUID_VOLUME. */
-BRS_API brs_status brs_stepper_create(brs_scene *scene, const brs_stepper_options *options,
-                                      brs_stepper **stepper);
-BRS_API brs_status brs_stepper_destroy(brs_stepper *stepper);
+BRS_API brs_status brs_stepper_create(brs_scene* scene, const brs_stepper_options* options,
+                                      brs_stepper** stepper);
+BRS_API brs_status brs_stepper_destroy(brs_stepper* stepper);
 
 /* Settings, taken up by the next solve. */
 
 /* gravity: 3 numbers, mm/s^2. NOT_FINITE. */
-BRS_API brs_status brs_stepper_set_gravity(brs_stepper *stepper, const double *gravity);
+BRS_API brs_status brs_stepper_set_gravity(brs_stepper* stepper, const double* gravity);
 /* on: non-zero enables the constraints of this id, 0 disables them. INVALID_ARGUMENT. */
-BRS_API brs_status brs_stepper_set_enabled(brs_stepper *stepper, int32_t id, int32_t on);
+BRS_API brs_status brs_stepper_set_enabled(brs_stepper* stepper, int32_t id, int32_t on);
 
 enum {
   BRS_CSF_FULL = 0,        /* closed, its fluid restored; no amount */
@@ -294,7 +298,7 @@ enum {
 
 /* With BRS_CSF_COMMUNICATING the law of any open compartment is that of the one fluid, and volumes
  * count for all. INVALID_ARGUMENT, INDEX_OUT_OF_RANGE, NOT_FINITE, FLUID_VOLUME. */
-BRS_API brs_status brs_stepper_set_csf(brs_stepper *stepper, int32_t compartment, int32_t law,
+BRS_API brs_status brs_stepper_set_csf(brs_stepper* stepper, int32_t compartment, int32_t law,
                                        double amount);
 
 /* Certificate of a solve, measured on the state that it leaves behind. */
@@ -316,12 +320,12 @@ typedef struct brs_solve_report {
   double seconds, seconds_assembly, seconds_factor, seconds_line_search;
 } brs_solve_report;
 
-BRS_API brs_status brs_solve_report_init(brs_solve_report *report, int64_t struct_size);
+BRS_API brs_status brs_solve_report_init(brs_solve_report* report, int64_t struct_size);
 
 /* Quasi-static equilibrium under the present settings. report: filled where the status is not
  * negative, or NULL. Remarks: NOT_CONVERGED, NO_EQUILIBRIUM, CANCELLED. RIGID_MODE, FLUID_VOLUME,
  * LINEAR_SOLVER, CALLBACK, STRUCT_SIZE. */
-BRS_API brs_status brs_stepper_solve_static(brs_stepper *stepper, brs_solve_report *report);
+BRS_API brs_status brs_stepper_solve_static(brs_stepper* stepper, brs_solve_report* report);
 
 /* Fields of the state, row-major. N nodes, M tets. */
 enum {
@@ -335,19 +339,19 @@ enum {
   BRS_FIELD_EXTERNAL_FORCE = 7  /* N x 3, mN, the two without those of a balanced reference */
 };
 
-/* A view of a field, without a copy; before the first solve that of the state at rest. Valid until
- * the stepper is destroyed; *values shows the present state until the next solve, restore or view
- * of the same field. rows and columns may be NULL. INVALID_ARGUMENT for an unknown field. */
-BRS_API brs_status brs_stepper_field(brs_stepper *stepper, int32_t field, const double **values,
-                                     int64_t *rows, int64_t *columns);
+/* A view of a field; that of the displacement is the state itself, without a copy. Valid until the
+ * next solve, restore, view of the same field, or the end of the stepper. rows and columns may be
+ * NULL. INVALID_ARGUMENT for an unknown field. */
+BRS_API brs_status brs_stepper_field(brs_stepper* stepper, int32_t field, const double** values,
+                                     int64_t* rows, int64_t* columns);
 
 /* Displacement (mm, count x 3) of the material that lies at the points (mm, count x 3) in the mesh
  * as given; and where the material now at the points lay in it. tets: count numbers of the tets
  * that hold the points, -1 outside, or NULL. values may be points. SIZE. Remark: OUTSIDE. */
-BRS_API brs_status brs_stepper_displacement_at(brs_stepper *stepper, const double *points,
-                                               int64_t count, double *values, int32_t *tets);
-BRS_API brs_status brs_stepper_rest_points_of(brs_stepper *stepper, const double *points,
-                                              int64_t count, double *values, int32_t *tets);
+BRS_API brs_status brs_stepper_displacement_at(brs_stepper* stepper, const double* points,
+                                               int64_t count, double* values, int32_t* tets);
+BRS_API brs_status brs_stepper_rest_points_of(brs_stepper* stepper, const double* points,
+                                              int64_t count, double* values, int32_t* tets);
 
 typedef struct brs_compartment_state {
   int64_t struct_size;
@@ -359,33 +363,33 @@ typedef struct brs_compartment_state {
   int64_t open;         /* 1: air may enter */
 } brs_compartment_state;
 
-BRS_API brs_status brs_compartment_state_init(brs_compartment_state *state, int64_t struct_size);
+BRS_API brs_status brs_compartment_state_init(brs_compartment_state* state, int64_t struct_size);
 /* INDEX_OUT_OF_RANGE, STRUCT_SIZE. */
-BRS_API brs_status brs_stepper_compartment(brs_stepper *stepper, int32_t compartment,
-                                           brs_compartment_state *state);
+BRS_API brs_status brs_stepper_compartment(brs_stepper* stepper, int32_t compartment,
+                                           brs_compartment_state* state);
 
 /* One-sided constraints: gap >= 0, multiplier >= 0, gap * multiplier = 0. */
 typedef struct brs_contact_state {
   int64_t struct_size;
   int64_t count;            /* rows, in the order of the nodes of the group */
   int64_t active;           /* rows with a positive multiplier */
-  const double *gap;        /* count, mm; NaN for rows that are not in the scene */
-  const double *multiplier; /* count, mN */
-  const double *force;      /* count x 3, mN, on the nodes (partners feel the opposite) */
+  const double* gap;        /* count, mm; NaN for rows that are not in the scene */
+  const double* multiplier; /* count, mN */
+  const double* force;      /* count x 3, mN, on the nodes (partners feel the opposite) */
 } brs_contact_state;
 
-BRS_API brs_status brs_contact_state_init(brs_contact_state *state, int64_t struct_size);
+BRS_API brs_status brs_contact_state_init(brs_contact_state* state, int64_t struct_size);
 /* Its arrays are valid until the same id is asked for again. INVALID_ARGUMENT, STRUCT_SIZE. */
-BRS_API brs_status brs_stepper_contact(brs_stepper *stepper, int32_t id, brs_contact_state *state);
+BRS_API brs_status brs_stepper_contact(brs_stepper* stepper, int32_t id, brs_contact_state* state);
 
 /* ---- snapshot: a copy of state and settings; restoring it brings back the same bits --------------- */
 
 typedef struct brs_snapshot brs_snapshot;
 
-BRS_API brs_status brs_stepper_snapshot(brs_stepper *stepper, brs_snapshot **snapshot);
+BRS_API brs_status brs_stepper_snapshot(brs_stepper* stepper, brs_snapshot** snapshot);
 /* INVALID_ARGUMENT for a snapshot of another mesh. */
-BRS_API brs_status brs_stepper_restore(brs_stepper *stepper, brs_snapshot *snapshot);
-BRS_API brs_status brs_snapshot_destroy(brs_snapshot *snapshot);
+BRS_API brs_status brs_stepper_restore(brs_stepper* stepper, brs_snapshot* snapshot);
+BRS_API brs_status brs_snapshot_destroy(brs_snapshot* snapshot);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,118 @@
+// Every allocation of every call fails once: a status, no leak, and the state as it was.
+//
+// A program of its own: it replaces operator new for itself and for the library it loads. What Eigen
+// and CHOLMOD take from malloc directly is not covered.
+#include <cstdlib>
+#include <new>
+
+#include "world.hpp"
+
+namespace {
+long countdown = -1;  // allocations until the one that fails; negative: none fails
+}  // namespace
+
+void* operator new(std::size_t size) {
+  if (countdown >= 0 && countdown-- == 0) throw std::bad_alloc();
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace brainshift::test {
+namespace {
+
+// Lets allocation 0, 1, 2, ... of the call fail until it goes through; returns how many there are.
+template <class Call>
+long fail_each_allocation(const char* name, Call&& call) {
+  for (long n = 0; n < 100000; ++n) {
+    countdown = n;
+    const brs_status status = call();
+    const bool survived = countdown >= 0;
+    countdown = -1;
+    if (survived) {
+      EXPECT_EQ(status, BRS_OK) << name;
+      return n;
+    }
+    // A call may do without what it did not get; it may not do half of what it was asked.
+    if (status != BRS_OK) {
+      EXPECT_EQ(status, BRS_ERROR_MEMORY) << name << ", allocation " << n;
+    }
+  }
+  ADD_FAILURE() << name << " does not end";
+  return 0;
+}
+
+TEST(Memory, RunningOutWhileAHandleIsMadeIsAStatus) {
+  World w;
+  const auto& b = w.block;
+  brs_context* context = nullptr;
+  brs_mesh* mesh = nullptr;
+  brs_scene* scene = nullptr;
+  brs_stepper* stepper = nullptr;
+  brs_snapshot* snapshot = nullptr;
+  EXPECT_GT(fail_each_allocation("context",
+                                 [&] {
+                                   brs_context_destroy(context);
+                                   return brs_context_create(BRS_VERSION, &context);
+                                 }),
+            0);
+  fail_each_allocation("mesh", [&] {
+    brs_mesh_destroy(mesh);
+    return brs_mesh_create(w.context, b.points.data(), b.points.rows(), b.tets.data(),
+                           b.tets.rows(), nullptr, 0, &mesh);
+  });
+  fail_each_allocation("scene", [&] {
+    brs_scene_destroy(scene);
+    return brs_scene_create(w.context, w.mesh, &scene);
+  });
+  fail_each_allocation("stepper", [&] {
+    brs_stepper_destroy(stepper);
+    return brs_stepper_create(w.scene, nullptr, &stepper);
+  });
+  fail_each_allocation("snapshot", [&] {
+    brs_snapshot_destroy(snapshot);
+    return brs_stepper_snapshot(w.stepper, &snapshot);
+  });
+  brs_snapshot_destroy(snapshot);
+  brs_stepper_destroy(stepper);
+  brs_scene_destroy(scene);
+  brs_mesh_destroy(mesh);
+  brs_context_destroy(context);
+}
+
+TEST(Memory, RunningOutWhileSolvingLeavesTheStateAsItWas) {
+  World w, undisturbed;
+  undisturbed.good(undisturbed.solve_after_loss(5000.0));
+  w.good(brs_stepper_set_csf(w.stepper, 0, BRS_CSF_LOST_VOLUME, 5000.0));
+  const std::vector<double> rest(std::size_t(w.block.points.size()), 0.0);
+  const long count = fail_each_allocation("solve", [&] {
+    const brs_status status = brs_stepper_solve_static(w.stepper, nullptr);
+    const long left = std::exchange(countdown, -1);
+    if (status != BRS_OK) {
+      EXPECT_EQ(w.field(BRS_FIELD_DISPLACEMENT), rest);
+    }
+    w.good(status == BRS_OK && left < 0 ? brs_stepper_restore(w.stepper, w.snapshot) : BRS_OK);
+    w.good(brs_stepper_set_csf(w.stepper, 0, BRS_CSF_LOST_VOLUME, 5000.0));
+    countdown = left;
+    return status;
+  });
+  EXPECT_GT(count, 10);
+  EXPECT_EQ(w.field(BRS_FIELD_DISPLACEMENT), undisturbed.field(BRS_FIELD_DISPLACEMENT));
+}
+
+TEST(Memory, RunningOutWhileAConstraintIsAddedAddsNone) {
+  World w;
+  std::int32_t first = -1, last = -1;
+  w.good(brs_scene_add_fixed(w.scene, "x", w.base.data(), 9, BRS_AXES, &first));
+  fail_each_allocation("fixed", [&] {
+    return brs_scene_add_fixed(w.scene, "a name that is too long for the string itself",
+                               w.base.data(), 9, BRS_AXES, &last);
+  });
+  w.good(brs_stepper_destroy(w.stepper));
+  w.stepper = nullptr;
+  w.good(brs_stepper_create(w.scene, nullptr, &w.stepper));
+}
+
+}  // namespace
+}  // namespace brainshift::test

@@ -77,14 +77,15 @@ class Scene:
         section = cut(brain, where)
         layers.append(flat(actor(section, lookup=self.lookup, edges=self.options.edges)))
         layers.append(flat(actor(cut(surface_of(rest), where), (0.55, 0.55, 0.55), width=1.5)))
-        layers.append(flat(actor(cut(self.skull, where), (0, 0, 0), width=3)))
+        outline = cut(self.skull, where)
+        layers.append(flat(actor(outline, (0, 0, 0), width=3)))
         layers.append(flat(actor(cut(self.falx, where), (0.75, 0.1, 0.1), width=3)))
         if self.options.arrows:
             layers.append(self.arrows(section))
         for i, layer in enumerate(layers):
             layer.SetPosition(*(i * towards_eye))
             renderer.AddActor(layer)
-        self.look(renderer, normal, camera_up, parallel=True)
+        self.look(renderer, normal, camera_up, outline)
 
     def draw_space(self, renderer, stage, brain):
         shell = surface_of(brain)
@@ -99,17 +100,30 @@ class Scene:
         if self.options.arrows:
             renderer.AddActor(self.arrows(shell))
         # From the front right, somewhat from above.
-        self.look(renderer, np.array([0.75, 0.45, 0.0]) + 0.6 * self.up, self.up, parallel=False)
+        self.look(renderer, np.array([0.75, 0.45, 0.0]) + 0.6 * self.up, self.up)
 
-    def look(self, renderer, direction, up, parallel):
+    def look(self, renderer, direction, up, outline=None):
+        """Camera at `direction`; outline: what fills the panel of a cut, drawn without perspective."""
         direction = direction / np.linalg.norm(direction)
         camera = renderer.GetActiveCamera()
         camera.SetFocalPoint(self.centre)
-        camera.SetPosition(self.centre + 4.0 * self.reach * direction)
+        camera.SetPosition(self.centre + direction)
         camera.SetViewUp(up)
-        camera.SetParallelProjection(parallel)
         renderer.ResetCamera()
         camera.Zoom(1.3)
+        if outline is not None and outline.GetNumberOfPoints() > 0:
+            points = vtk_to_numpy(outline.GetPoints().GetData())
+            low, high = points.min(axis=0), points.max(axis=0)
+            middle = 0.5 * (low + high)
+            upright = up - up.dot(direction) * direction
+            upright /= np.linalg.norm(upright)
+            sideways = np.cross(upright, direction)
+            offsets = points - middle
+            camera.SetFocalPoint(middle)
+            camera.SetPosition(middle + 4.0 * self.reach * direction)
+            camera.ParallelProjectionOn()
+            camera.SetParallelScale(1.15 * max(np.abs(offsets @ upright).max(),
+                                               np.abs(offsets @ sideways).max()))
         renderer.ResetCameraClippingRange()
 
 

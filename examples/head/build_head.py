@@ -4,7 +4,6 @@
 Usage: build_head.py WORK_DIR MESHER EDGE_MM OUT_DIR
 Reads WORK_DIR/segmentation.npz (segment.py), runs MESHER (mesher/mesh_head.cpp), writes brain.vtu,
 cavity.vtp, falx.vtp and head.json to OUT_DIR."""
-import json
 import pathlib
 import subprocess
 import sys
@@ -14,6 +13,7 @@ import numpy as np
 import brain
 import domain
 import frame
+import headjson
 import midsurface
 import trimesh
 import vtkxml
@@ -21,14 +21,16 @@ import walls
 
 CAVITY_SIZES = ("4.5", "4.5", "0.4", "30", "surface")  # edge, facet, chord, cell (see mesh_head.cpp)
 
+EDGE_OF_SIZE = np.array([[2.0, 3.5, 6.6, 10.3, 15.9], [1.46, 2.56, 4.97, 8.3, 14.9]])
+
 
 def mesh_brain(work, mesher, data, edge, z_cut):
     curves = domain.brain_curves(data["brain"], data["mid"], z_cut)
     domain.write(work / "brain", data["brain"], data["mid"], z_cut, curves)
     output = work / f"brain_{edge:g}.txt"
-    # Mesh_3 bounds circumradii, not edges: fitted so that the mean edge comes out near `edge`. The
-    # chord error is kept small so that volumes stay within a few per cent on coarse meshes.
-    size = 0.98 * edge - 1.5
+    # Mesh_3 bounds circumradii, not edges: mean edges that came out (mm) against bounds. The chord
+    # error is kept small so that volumes stay within a few per cent on coarse meshes.
+    size = round(float(np.interp(edge, *EDGE_OF_SIZE)), 3)
     subprocess.run([mesher, f"{work / 'brain'}.txt", output, str(size), str(size),
                     str(0.1 * edge), str(size)], check=True)
     return brain.assemble(output, data["mid"], z_cut)
@@ -101,17 +103,6 @@ def description(data, edge, z_cut):
         "bridge_outline_yz": frame.to_head_yz(frame.BRIDGE_MNI)}
 
 
-def plain(value):
-    """Arrays and numpy numbers to what json writes; lengths to 1e-6 mm."""
-    if isinstance(value, dict):
-        return {key: plain(entry) for key, entry in value.items()}
-    if isinstance(value, (list, tuple, np.ndarray)):
-        return [plain(entry) for entry in value]
-    if isinstance(value, (float, np.floating)):
-        return float(value) if abs(value) < 1e-3 else round(float(value), 6)
-    return int(value) if isinstance(value, np.integer) else value
-
-
 def main(work, mesher, edge, out):
     data = dict(np.load(work / "segmentation.npz"))
     z_cut = float(frame.to_head((0, 0, frame.STEM_CUT_MNI))[2])
@@ -139,7 +130,7 @@ def main(work, mesher, edge, out):
         head["trajectories"][side] = trajectory(side, (nodes, surface), wall)
         head["landmarks"][f"entry_{side}"] = head["trajectories"][side]["entry"]
         head["landmarks"][f"frontal_pole_{side}"] = frontal_pole(nodes, tets, regions, label)
-    (out / "head.json").write_text(json.dumps(plain(head), indent=1) + "\n", encoding="utf-8")
+    headjson.write(out / "head.json", head)
 
 
 if __name__ == "__main__":

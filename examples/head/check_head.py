@@ -4,12 +4,12 @@
 Usage: check_head.py DIR [--record]      --record: also stores the table in DIR/head.json
        check_head.py DIR --same OTHER    compares two head folders (coordinates to 1e-9 mm)
 Needs numpy and VTK's Python modules. It reads the written files, so it checks what is shipped."""
-import json
 import pathlib
 import sys
 
 import numpy as np
 
+import headjson
 import trimesh
 import vtkxml
 
@@ -88,7 +88,8 @@ def check_topology(table, nodes, tets, parts):
     for side, (part, surface) in parts.items():
         links = np.vstack([part[:, [0, k]] for k in (1, 2, 3)])
         label = trimesh.components(len(nodes), links)
-        table.row(f"{side}: connected components", len(np.unique(label[np.unique(part)])), 1, 1)
+        table.row(f"{side} half: tets", len(part))
+        table.row("  connected components", len(np.unique(label[np.unique(part)])), 1, 1)
         table.row("  edges that are not shared by two", sum(trimesh.edge_counts(surface)), 0, 0)
         table.row("  pinched surface nodes", len(trimesh.pinched_vertices(surface)), 0, 0)
         table.row("  Euler characteristic of the surface", trimesh.euler(surface), 2, 2,
@@ -118,7 +119,7 @@ def check_tags(table, head, nodes, tags):
               0, 1)
     cut = head["stem_cut"]["point"][2]
     stem = np.flatnonzero(tags["stem"])
-    table.row("nodes on the brainstem's cut", len(stem), 6)
+    table.row("nodes on the brainstem's cut", len(stem), 4)
     table.row("  off its plane (mm)", np.abs(nodes[stem, 2] - cut).max(), 0, 1e-6)
     table.row("nodes below the cut", int(np.sum(nodes[:, 2] < cut - 1e-6)), 0, 0)
     table.row("nodes of the optic region", int(tags["optic"].sum()), 2)
@@ -156,6 +157,9 @@ def check_gaps(table, head, nodes, parts, tags, wall):
     table.row("brain nodes outside the cavity", int(np.sum(~inside)), 0, 0)
     gap = trimesh.distance_to_surface(nodes[used], points, outer)
     table.row("smallest gap brain - wall (mm)", gap.min(), 0.3)
+    hidden = sum(trimesh.inside_surface(points[np.unique(outer)], nodes, part[1]).sum()
+                 for part in parts.values())
+    table.row("wall nodes inside the brain", int(hidden), 0, 0)
     # Gaps by region: surface outside the mid-surface that faces the skull, not the tentorium.
     skull = trimesh.distance_to_surface(nodes[used], points, outer[~tentorium])
     faces = (tags["pair"][used] < 0) & (tags["stem"][used] == 0) & (skull < gap + 1e-9)
@@ -226,7 +230,7 @@ def same(one, other):
 
 
 def main(folder, record):
-    head = json.loads((folder / "head.json").read_text(encoding="utf-8"))
+    head = headjson.read(folder / "head.json")
     nodes, tets, cells, tags = vtkxml.read(folder / "brain.vtu")
     wall_points, wall_triangles, wall_data, _ = vtkxml.read(folder / "cavity.vtp")
     falx_points, falx_triangles, _, falx_data = vtkxml.read(folder / "falx.vtp")
@@ -245,7 +249,7 @@ def main(folder, record):
     print("out of range:", table.failed)
     if record:
         head["table"] = table.rows
-        (folder / "head.json").write_text(json.dumps(head, indent=1) + "\n", encoding="utf-8")
+        headjson.write(folder / "head.json", head)
     return 1 if table.failed else 0
 
 

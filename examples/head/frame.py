@@ -48,8 +48,9 @@ STEM_BACK_MNI = np.array([[-72, -51], [-60, -49], [-50, -44], [-40, -39.5], [-30
                           [-20, -34.5], [-8, -37]], float)
 STEM_HALF_WIDTH_MNI = np.array([[-72, 11], [-50, 11], [-44, 17], [-8, 18]], float)
 
-# Outline (y, z) around what is one piece of tissue on the midline (wider than it where fluid is): corpus callosum, septum and fornix,
-# diencephalon with the (filled) third ventricle, midbrain, pons, medulla. Drawn on x = 0 of ch2.
+# Outline (y, z) around what is one piece of tissue on the midline, wider than it where fluid is:
+# corpus callosum, septum and fornix, diencephalon with the (filled) third ventricle, midbrain, pons,
+# medulla. Drawn on x = 0 of ch2.
 BRIDGE_MNI = np.array([
     [-38, 9], [-38, 28], [-31, 31], [-22, 31], [-8, 31], [4, 29.5], [14, 25], [22, 20], [30, 14],
     [34.5, 5], [35, -1], [27, -4], [16, -3], [9, -6], [6, -11], [8, -17], [12, -20], [8, -24],

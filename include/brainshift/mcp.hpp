@@ -31,17 +31,18 @@ enum class McpStatus { solved, infeasible, not_converged };
 
 struct McpReport {
   McpStatus status = McpStatus::not_converged;
-  // max_i |z_i - clamp(z_i - w_i, lower_i, upper_i)| / T_i after scaling rows and columns to entries
-  // of order one; T_i = |q_i| + sum_j |M_ij z_j|, at least 1e-3 of the largest, at most
-  // 1e4 times the largest w at z = 0. No unit, and small forces count as much as large ones. Computed from the z returned, whatever the method says.
+  // max_i |z_i - clamp(z_i - w_i, lower_i, upper_i)| / T_i, rows and columns scaled to entries of
+  // order one; T_i = |q_i| + sum_j |M_ij z_j|, at least 1e-3 of the largest of them and at most
+  // 1e4 times the largest w at z = 0. No unit, and small forces count as much as large ones.
+  // Computed from the z returned, whatever the method says.
   double residual = 0.0;
-  int iterations = 0;           // Newton iterations, pivots or sweeps
+  int iterations = 0;           // Newton iterations, pivots or sweeps; automatic: their sum
   Index rank = 0;               // of the rows that ended strictly between their bounds
   // false: z is, or may be, one of many (dependent rows); w is unique all the same where M is
   // symmetric and semidefinite. Newton then returns z of least norm of sqrt(M_ii) z_i over the
   // rows between their bounds.
   bool unique = true;
-  Indices conflict;             // infeasible: rows proved (Farkas) to contradict each other
+  Indices conflict;             // infeasible: rows proved (Farkas) to contradict; z is void
   std::string message;
 };
 

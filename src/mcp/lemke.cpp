@@ -80,7 +80,8 @@ class Tableau {
 
   // Compares rows a, b divided by their entries in `entering` (-1: as they are): right-hand side,
   // then the columns of the basis inverse, the last one first: of equal rows the first leaves, as
-  // one would expect (Murty's problem then takes 2 pivots, not 2^n). The covering variable wins a tie: that is the solution.
+  // one would expect (Murty's problem then takes 2 pivots, not 2^n). The covering variable
+  // wins a tie: that is the solution.
   bool lexicographically_less(Index a, Index b, Index entering) const {
     const double da = entering < 0 ? 1.0 : m_rows(a, entering);
     const double db = entering < 0 ? 1.0 : m_rows(b, entering);

@@ -41,10 +41,10 @@ struct RowError {
 };
 
 // max_i |natural map|_i / T_i with T_i = |q_i| + sum_j |M_ij z_j|: each row against the terms it is
-// the sum of, so that small forces count as much as large ones. T_i is floored at 1e-3 of the
-// largest: a row whose terms should all be zero holds nothing but the others' rounding. It is capped
-// at 1e4 of the largest w at z = clamp(0): the iterates of an unsolvable problem grow beyond all
-// bounds, and would look ever better against their own size.
+// the sum of, so that small forces count as much as large ones.
+// T_i is floored at 1e-3 of the largest: a row whose terms should all be zero holds nothing but
+// the rounding of the others. It is capped at 1e4 of the largest w at z = clamp(0): the iterates
+// of an unsolvable problem grow without bound, and would look ever better against their own size.
 RowError natural_error(const Problem& problem, const VectorXd& z);
 
 // What a method hands back; the caller certifies it.

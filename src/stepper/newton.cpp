@@ -25,6 +25,8 @@ double max_norm(const Eigen::VectorXd& v) { return v.size() ? v.lpNorm<Eigen::In
 
 // Changes of the active set within one linearisation; more are left to the next iteration.
 constexpr int max_active_set_changes = 4;
+// Part of the body's diameter within which obstacles are looked for in one such change.
+constexpr double reach_of_a_step = 0.01;
 
 }  // namespace
 
@@ -32,6 +34,12 @@ Newton::Newton(const Equilibrium& equilibrium, const StepperOptions& options, Fa
                SolveReport& report)
     : m_eq(equilibrium), m_options(options), m_cache(cache), m_report(report) {
   const auto& blocks = m_eq.blocks_pointer();
+  m_free.assign(std::size_t(blocks->count()), Mat3::Identity());
+  for (const NodeRow& row : m_eq.fixed_rows()) {
+    Mat3& free = m_free[std::size_t(row.block)];
+    const Vec3 left = free * row.normal;
+    if (left.squaredNorm() > 1e-12) free -= left * left.transpose() / left.squaredNorm();
+  }
   if (m_cache.made_for == blocks) return;
   m_cache.stiffness = blocks->make_matrix();
   m_cache.reduced = m_cache.stiffness;
@@ -46,6 +54,21 @@ void Newton::refresh(const Eigen::VectorXd& offset) {
   m_load = m_eq.blocks().gather(m_forces.external - m_forces.internal) + offset;
 }
 
+// What the fixed rows of a block leave of a direction.
+Vec3 Newton::free_part(Index block, const Vec3& direction) const {
+  return m_free[std::size_t(block)] * direction;
+}
+
+// Change of a contact row's gap for a unit push along it; 0 where fixed rows hold both sides: such
+// a row can do nothing and is left out.
+double Newton::mobility(std::size_t r) const {
+  const ContactRow& row = m_eq.contacts().row(r);
+  const Vec3& n = m_forces.gaps[r].normal;
+  double sum = n.dot(free_part(row.node, n));
+  if (row.partner >= 0) sum += n.dot(free_part(row.partner, n));
+  return sum > 1e-12 * n.squaredNorm() ? sum : 0.0;
+}
+
 double Newton::local_stiffness(Index block) const {
   return m_cache.stiffness.get(m_cache.stiffness.slot_at(block, 0)).trace() / 3.0;
 }
@@ -55,6 +78,7 @@ void Newton::choose_active() {
   const ContactRows& contacts = m_eq.contacts();
   m_active.assign(contacts.size(), 0);
   for (std::size_t r = 0; r < contacts.size(); ++r) {
+    if (mobility(r) == 0.0) continue;
     const double stiffness = local_stiffness(contacts.row(r).node);
     m_active[r] = m_state.multipliers[r] - stiffness * m_forces.gaps[r].gap > 0.0;
   }
@@ -149,7 +173,10 @@ Newton::Step Newton::direction(const Reduction& reduction) {
 
 bool Newton::update_active(const Step& step) {
   const ContactRows& contacts = m_eq.contacts();
-  const double slack = 1e-12 * m_eq.mesh().diameter();
+  const double diameter = m_eq.mesh().diameter();
+  const double slack = 1e-12 * diameter;
+  // A floppy body would fly far past its obstacles: only those met early on the way are added.
+  const double reach = std::min(1.0, reach_of_a_step * diameter / max_norm(step.dx));
   bool changed = false;
   for (std::size_t r = 0; r < contacts.size(); ++r) {
     if (m_active[r]) {
@@ -161,9 +188,10 @@ bool Newton::update_active(const Step& step) {
     }
     const ContactRow& row = contacts.row(r);
     const GapSample& g = m_forces.gaps[r];
-    double gap = g.gap + g.normal.dot(step.dx.segment<3>(3 * row.node));
-    if (row.partner >= 0) gap -= g.normal.dot(step.dx.segment<3>(3 * row.partner));
-    if (gap < -slack) {
+    if (mobility(r) == 0.0) continue;
+    double change = g.normal.dot(step.dx.segment<3>(3 * row.node));
+    if (row.partner >= 0) change -= g.normal.dot(step.dx.segment<3>(3 * row.partner));
+    if (g.gap + reach * change < -slack) {
       m_active[r] = 1;
       changed = true;
     }
@@ -212,9 +240,10 @@ bool Newton::no_new_inversion(const Points& u, const Eigen::VectorXd& before) co
   return true;
 }
 
-// Moves nodes onto the surfaces they are active on or have passed: the active rows are equations
-// here, so that every iterate obeys them exactly and the energy alone can judge a step.
-void Newton::make_feasible(Points& u, std::vector<char>& touched) const {
+// Moves nodes back onto the surfaces they have passed, and active ones to the gap the step gives
+// them (what is left of theirs after `part` of the way), so that every iterate is feasible and the
+// energy alone can judge a step.
+void Newton::make_feasible(double part, Points& u, std::vector<char>& touched) const {
   const ContactRows& contacts = m_eq.contacts();
   const double slack = 1e-13 * m_eq.mesh().diameter();
   touched = m_active;
@@ -222,14 +251,19 @@ void Newton::make_feasible(Points& u, std::vector<char>& touched) const {
     double worst = 0.0;
     for (std::size_t r = 0; r < contacts.size(); ++r) {
       const GapSample g = contacts.sample(r, u);
-      if (g.gap < -slack) touched[r] = 1;
-      if (!touched[r] || std::abs(g.gap) <= slack) continue;
-      worst = std::max(worst, std::abs(g.gap));
       const ContactRow& row = contacts.row(r);
-      const double share = row.partner >= 0 ? 0.5 : 1.0;
-      const Vec3 move = -share * g.gap * g.normal / g.normal.squaredNorm();
-      m_eq.blocks().move(row.node, move, u);
-      if (row.partner >= 0) m_eq.blocks().move(row.partner, -move, u);
+      const Vec3 push = free_part(row.node, g.normal);
+      const Vec3 back = row.partner >= 0 ? free_part(row.partner, g.normal) : Vec3(Vec3::Zero());
+      const double mobility = g.normal.dot(push + back);
+      if (mobility <= 1e-12 * g.normal.squaredNorm()) continue;   // held on both sides
+      if (g.gap < -slack) touched[r] = 1;
+      const double target =
+          m_active[r] ? (1.0 - part) * std::max(m_forces.gaps[r].gap, 0.0) : 0.0;
+      const double over = g.gap - target;
+      if (!touched[r] || std::abs(over) <= slack) continue;
+      worst = std::max(worst, std::abs(over));
+      m_eq.blocks().move(row.node, -over / mobility * push, u);
+      if (row.partner >= 0) m_eq.blocks().move(row.partner, over / mobility * back, u);
     }
     if (worst == 0.0) break;
   }
@@ -247,7 +281,7 @@ double Newton::search(const Step& step, MechanicalState& next) {
   for (int attempt = 0; attempt < 30; ++attempt) {
     next.u = u0;
     m_eq.blocks().scatter_add(step.dx, part, next.u);
-    make_feasible(next.u, touched);
+    make_feasible(part, next.u, touched);
     if (!next.u.allFinite() || !no_new_inversion(next.u, jacobians)) {
       part *= 0.5;
       continue;
@@ -296,6 +330,7 @@ void Newton::measure(const Eigen::VectorXd& offset) {
   m_report.active_contacts = 0;
   for (std::size_t r = 0; r < m_forces.gaps.size(); ++r) {
     const double gap = m_forces.gaps[r].gap, multiplier = m_state.multipliers[r];
+    if (mobility(r) == 0.0) continue;
     m_report.violation = std::max(m_report.violation, -gap);
     m_report.complementarity =
         std::max(m_report.complementarity,

@@ -59,10 +59,12 @@ class Newton {
   bool find_step(Step& step, bool fresh);
   double search(const Step& step, MechanicalState& next);
   bool no_new_inversion(const Points& u, const Eigen::VectorXd& before) const;
-  void make_feasible(Points& u, std::vector<char>& touched) const;
+  void make_feasible(double part, Points& u, std::vector<char>& touched) const;
   void estimate_multipliers();
   void measure(const Eigen::VectorXd& offset);
   double local_stiffness(Index block) const;
+  Vec3 free_part(Index block, const Vec3& direction) const;
+  double mobility(std::size_t r) const;
 
   const Equilibrium& m_eq;
   const StepperOptions& m_options;
@@ -73,6 +75,7 @@ class Newton {
   Forces m_forces;
   Eigen::VectorXd m_offset, m_load;     // m_load = external - internal + offset, on blocks
   std::vector<char> m_active;           // per contact row
+  std::vector<Mat3> m_free;             // per block: projection on what its fixed rows leave free
   std::vector<RankOne> m_terms;
   std::vector<Eigen::VectorXd> m_columns, m_rows;   // the terms on blocks
   bool m_definite = false;

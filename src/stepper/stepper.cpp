@@ -45,10 +45,25 @@ class Stepper::Impl {
  public:
   Impl(Scene scene, StepperOptions options)
       : m_mesh(scene.mesh), m_options(std::move(options)), m_equilibrium(scene) {
+    check_options();
     m_state.wanted = {std::move(scene.csf), std::move(scene.constraints), scene.gravity};
     m_state.solved = m_state.wanted;
     m_state.u.setZero(m_mesh.node_count(), 3);
     refuse_penetration();
+  }
+
+  void check_options() const {
+    const auto require = [](bool good, const char* what) {
+      if (!good) throw Error(ErrorCode::invalid_argument, std::string("StepperOptions: ") + what);
+    };
+    const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
+    require(positive(m_options.residual_tolerance), "residual_tolerance is not positive");
+    require(positive(m_options.complementarity_tolerance),
+            "complementarity_tolerance is not positive");
+    require(positive(m_options.correction_tolerance), "correction_tolerance is not positive");
+    require(positive(m_options.smallest_load_step), "smallest_load_step is not positive");
+    require(m_options.initial_penetration >= 0.0, "initial_penetration is negative");
+    require(m_options.max_iterations > 0, "max_iterations is not positive");
   }
 
   void refuse_penetration() const {
@@ -71,26 +86,29 @@ class Stepper::Impl {
     equilibrium.configure(settings.constraints, settings.csf, settings.gravity);
   }
 
-  MechanicalState mechanical() const {
-    MechanicalState m{m_state.u, std::vector<double>(m_equilibrium.contacts().size(), 0.0)};
+  MechanicalState mechanical(const ContactRows& contacts) const {
+    MechanicalState m{m_state.u, std::vector<double>(contacts.size(), 0.0)};
     for (std::size_t r = 0; r < m.multipliers.size(); ++r) {
-      const auto found = m_state.multipliers.find(m_equilibrium.contacts().group_of(r).id);
+      const auto found = m_state.multipliers.find(contacts.group_of(r).id);
       if (found == m_state.multipliers.end()) continue;
-      m.multipliers[r] = found->second[Eigen::Index(m_equilibrium.contacts().row(r).item)];
+      m.multipliers[r] = found->second[Eigen::Index(contacts.row(r).item)];
     }
     return m;
   }
 
-  void keep(const MechanicalState& m) {
-    m_state.u = m.u;
-    m_state.multipliers.clear();
-    const ContactRows& contacts = m_equilibrium.contacts();
+  // The present state with what a solve has found; made apart, so that a failure changes nothing.
+  Snapshot solved(const MechanicalState& m, const ContactRows& contacts) const {
+    Snapshot next = m_state;
+    next.u = m.u;
+    next.multipliers.clear();
+    next.solved = next.wanted;
     for (std::size_t r = 0; r < m.multipliers.size(); ++r) {
       const ConstraintGroup& group = contacts.group_of(r);
-      Eigen::VectorXd& values = m_state.multipliers[group.id];
+      Eigen::VectorXd& values = next.multipliers[group.id];
       if (values.size() == 0) values.setZero(Eigen::Index(group.nodes.size()));
       values[Eigen::Index(contacts.row(r).item)] = m.multipliers[r];
     }
+    return next;
   }
 
   Mesh m_mesh;
@@ -104,10 +122,11 @@ class Stepper::Impl {
 // one load step, or in smaller ones where Newton does not get through.
 SolveReport Stepper::Impl::solve_static() {
   const auto start = std::chrono::steady_clock::now();
-  configure(m_equilibrium, m_state.wanted);
+  Equilibrium trial = m_equilibrium;  // whatever fails below leaves the present one as it is
+  configure(trial, m_state.wanted);
   SolveReport report;
-  Newton newton(m_equilibrium, m_options, m_cache, report);
-  MechanicalState state = mechanical();
+  Newton newton(trial, m_options, m_cache, report);
+  MechanicalState state = mechanical(trial.contacts());
   const Eigen::VectorXd unbalanced = newton.unbalanced(state);
   double reached = 0.0, step = 1.0;
   report.status = Status::converged;
@@ -138,11 +157,10 @@ SolveReport Stepper::Impl::solve_static() {
   }
   report.load_factor = reached;
   if (report.status == Status::converged) {
-    keep(state);
-    m_state.solved = m_state.wanted;
     newton.certify(state, Eigen::VectorXd::Zero(unbalanced.size()));
-  } else {
-    configure(m_equilibrium, m_state.solved);
+    Snapshot next = solved(state, trial.contacts());
+    std::swap(m_state, next);
+    m_equilibrium = std::move(trial);
   }
   report.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -292,8 +310,12 @@ void Stepper::restore(const std::shared_ptr<const Snapshot>& snapshot) {
   if (!snapshot || snapshot->u.rows() != m_impl->m_mesh.node_count()) {
     throw Error(ErrorCode::invalid_argument, "the snapshot is empty or of another mesh");
   }
-  Impl::configure(m_impl->m_equilibrium, snapshot->solved);
-  m_impl->m_state = *snapshot;
+  if (snapshot->wanted.csf.has_value() != m_impl->m_state.wanted.csf.has_value()) {
+    throw Error(ErrorCode::invalid_argument, "of snapshot and scene only one has CSF");
+  }
+  Snapshot next = *snapshot;
+  Impl::configure(m_impl->m_equilibrium, next.solved);
+  std::swap(m_impl->m_state, next);
 }
 
 }  // namespace brainshift

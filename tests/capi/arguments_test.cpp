@@ -99,7 +99,10 @@ TEST_F(Arguments, ErrorsOfTheLibraryArriveWithTheirCulprit) {
   brs_material_init(&material, sizeof material);
   refused(brs_scene_set_material(w.scene, 0, &material), BRS_ERROR_NULL, "law");
   material.law = "linear";
-  refused(brs_scene_set_material(w.scene, 0, &material), BRS_ERROR_INVALID_ARGUMENT, "");
+  refused(brs_scene_set_material(w.scene, 0, &material), BRS_ERROR_NOT_FINITE, "young");
+  material.young = -3.0;
+  material.poisson = material.density = 0.0;
+  refused(brs_scene_set_material(w.scene, 0, &material), BRS_ERROR_INVALID_ARGUMENT, "young");
   brs_compartment again = w.compartment();
   refused(brs_scene_add_compartment(w.scene, &again, nullptr), BRS_ERROR_INVALID_ARGUMENT, "'box'");
   again.name = "open";
@@ -127,8 +130,10 @@ TEST_F(Arguments, ASceneThatWasRefusedSomethingIsAsBefore) {
 TEST_F(Arguments, MoreFluidLostThanThereIsLeavesTheStateAlone) {
   w.good(w.solve_after_loss(5000.0));
   const std::vector<double> before = w.field(BRS_FIELD_DISPLACEMENT);
+  const std::vector<double> pressure = w.field(BRS_FIELD_FLUID_PRESSURE);
   refused(w.solve_after_loss(1e9), BRS_ERROR_FLUID_VOLUME, "box");
   EXPECT_EQ(w.field(BRS_FIELD_DISPLACEMENT), before);
+  EXPECT_EQ(w.field(BRS_FIELD_FLUID_PRESSURE), pressure);
 }
 
 TEST_F(Arguments, AMessageIsClearedByTheNextGoodCall) {

@@ -49,19 +49,23 @@ TEST(Progress, WhenItSaysStopTheSolveIsCancelledAndTheStateUnchanged) {
   host.answer = [](const brs_progress&) { return 7; };
   brs_solve_report report;
   brs_solve_report_init(&report, sizeof report);
+  const std::vector<double> fluid = host.w.field(BRS_FIELD_FLUID_FORCE);
   EXPECT_EQ(host.w.solve_after_loss(5000.0, &report), BRS_CANCELLED);
+  EXPECT_NE(host.w.message(), "");
   EXPECT_EQ(report.status, BRS_CANCELLED);
   EXPECT_EQ(host.calls, 1);
-  EXPECT_NE(host.w.message(), "");
+  EXPECT_EQ(host.w.field(BRS_FIELD_FLUID_FORCE), fluid);
   host.expect_untouched();
 }
 
 TEST(Progress, ThatThrowsEndsTheCallNotTheProgram) {
   Host host;
   host.answer = [](const brs_progress&) -> std::int32_t { throw std::runtime_error("oops"); };
+  const std::vector<double> fluid = host.w.field(BRS_FIELD_FLUID_FORCE);
   EXPECT_EQ(host.w.solve_after_loss(5000.0), BRS_ERROR_CALLBACK);
   EXPECT_NE(host.w.message().find("callback"), std::string::npos);
   host.expect_untouched();
+  EXPECT_EQ(host.w.field(BRS_FIELD_FLUID_FORCE), fluid);
   host.answer = [](const brs_progress&) { return 0; };
   EXPECT_EQ(host.w.solve_after_loss(5000.0), BRS_OK);
 }

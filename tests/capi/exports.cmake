@@ -1,5 +1,6 @@
 # The library exports the functions that the header declares, and nothing else.
 # cmake -DNM=... -DLIBRARY=... -DHEADER=... -P exports.cmake
+cmake_minimum_required(VERSION 3.22)
 execute_process(COMMAND ${NM} -D --defined-only ${LIBRARY} OUTPUT_VARIABLE listed
                 RESULT_VARIABLE failed)
 if(failed)

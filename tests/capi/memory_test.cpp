@@ -4,6 +4,7 @@
 // and CHOLMOD take from malloc directly is not covered.
 #include <cstdlib>
 #include <new>
+#include <utility>
 
 #include "world.hpp"
 
@@ -85,12 +86,14 @@ TEST(Memory, RunningOutWhileSolvingLeavesTheStateAsItWas) {
   World w, undisturbed;
   undisturbed.good(undisturbed.solve_after_loss(5000.0));
   w.good(brs_stepper_set_csf(w.stepper, 0, BRS_CSF_LOST_VOLUME, 5000.0));
-  const std::vector<double> rest(std::size_t(w.block.points.size()), 0.0);
+  const std::vector<double> rest = w.field(BRS_FIELD_DISPLACEMENT);
+  const std::vector<double> fluid = w.field(BRS_FIELD_FLUID_FORCE);
   const long count = fail_each_allocation("solve", [&] {
     const brs_status status = brs_stepper_solve_static(w.stepper, nullptr);
     const long left = std::exchange(countdown, -1);
     if (status != BRS_OK) {
       EXPECT_EQ(w.field(BRS_FIELD_DISPLACEMENT), rest);
+      EXPECT_EQ(w.field(BRS_FIELD_FLUID_FORCE), fluid);
     }
     w.good(status == BRS_OK && left < 0 ? brs_stepper_restore(w.stepper, w.snapshot) : BRS_OK);
     w.good(brs_stepper_set_csf(w.stepper, 0, BRS_CSF_LOST_VOLUME, 5000.0));

@@ -73,10 +73,10 @@ TEST(ConstraintSet, RefusesWhatCannotBeAndNamesTheGroup) {
                [&] { set.support("culprit", {0, 1, 2}, Eigen::Vector2d(1, 1)); });
   expect_error(ErrorCode::invalid_argument,
                [&] { set.support("culprit", {0}, Eigen::VectorXd::Constant(1, -1.0)); });
-  expect_error(ErrorCode::invalid_argument,
+  expect_error(ErrorCode::not_finite,
                [&] { set.support("culprit", {0}, Eigen::VectorXd::Constant(1, nan)); });
   expect_error(ErrorCode::invalid_argument, [&] { set.obstacle("culprit", {0}, plane(), 0.5); });
-  expect_error(ErrorCode::invalid_argument, [&] {
+  expect_error(ErrorCode::not_finite, [&] {
     set.obstacle("culprit", {0}, plane(), 1.0, Eigen::VectorXd::Constant(1, nan));
   });
   expect_error(ErrorCode::size_mismatch,

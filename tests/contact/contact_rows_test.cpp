@@ -53,7 +53,8 @@ TEST(ContactRows, GradientAndHessianMatchDifferencesOfTheGap) {
       minus(Eigen::Index(r), axis) -= h;
       const GapSample a = rows.sample(r, plus), b = rows.sample(r, minus);
       EXPECT_NEAR((a.gap - b.gap) / (2 * h), s.normal[axis], 1e-7);
-      EXPECT_LT(((a.normal - b.normal) / (2 * h) - H.col(axis)).norm(), 1e-6);
+      // cubic splines: the third derivative jumps, so the difference is good to h times it
+      EXPECT_LT(((a.normal - b.normal) / (2 * h) - H.col(axis)).norm(), 1e-5);
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "brainshift/error.hpp"
 #include "brainshift/io.hpp"
@@ -19,7 +20,8 @@ class Scratch {
   Scratch() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     m_folder = std::filesystem::temp_directory_path() /
-               ("brainshift_io_" + std::string(test->test_suite_name()) + "_" + test->name());
+               ("brainshift_io_" + std::string(test->test_suite_name()) + "_" + test->name() + "_" +
+                std::to_string(::getpid()));
     std::filesystem::remove_all(m_folder);
     std::filesystem::create_directories(m_folder);
   }

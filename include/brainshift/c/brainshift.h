@@ -191,7 +191,7 @@ typedef struct brs_material {
 
 /* Law NULL, numbers NaN: all of them must be given. */
 BRS_API brs_status brs_material_init(brs_material* material, int64_t struct_size);
-/* Every region of the mesh needs one; a second one replaces the first. INVALID_ARGUMENT. */
+/* Every region of the mesh needs one; a second replaces the first. INVALID_ARGUMENT, NOT_FINITE. */
 BRS_API brs_status brs_scene_set_material(brs_scene* scene, int32_t region,
                                           const brs_material* material);
 /* gravity: 3 numbers, mm/s^2. NOT_FINITE. */

@@ -1,0 +1,91 @@
+// Sparse Cholesky against Eigen's dense one.
+#include "linear/spd_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include "linear/matrices.hpp"
+
+namespace brainshift {
+namespace {
+
+TEST(SpdSolver, SolvesForSeveralRightHandSides) {
+  for (Index n : {1, 2, 17, 150}) {
+    const test::RandomMatrix random(n, unsigned(n));
+    const auto solver = make_spd_solver();
+    solver->analyse(random.blocks);
+    ASSERT_TRUE(solver->factorise(random.blocks));
+    EXPECT_GT(solver->factor_nonzeros(), 0.0);
+    for (Index columns : {1, 4, 2}) {
+      const Eigen::MatrixXd b = Eigen::MatrixXd::Random(3 * n, columns);
+      Eigen::MatrixXd x = b;
+      solver->solve(x);
+      // diagonally dominant: condition below 1e2
+      EXPECT_LT((random.dense * x - b).norm(), 1e-13 * b.norm()) << n;
+      EXPECT_LT((x - random.dense.llt().solve(b)).norm(), 1e-13 * x.norm()) << n;
+    }
+  }
+}
+
+TEST(SpdSolver, SaysWhenAMatrixIsNotPositiveDefiniteAndServesAgain) {
+  const test::RandomMatrix good(40, 3), bad(40, 3, -5.0);
+  const auto solver = make_spd_solver();
+  solver->analyse(good.blocks);
+  EXPECT_FALSE(solver->factorise(bad.blocks));
+  ASSERT_TRUE(solver->factorise(good.blocks));
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(120, 1);
+  Eigen::MatrixXd x = b;
+  solver->solve(x);
+  EXPECT_LT((good.dense * x - b).norm(), 1e-13 * b.norm());
+}
+
+TEST(SpdSolver, AMatrixWithOneNegativePivotAtTheEndIsNotDefinite) {
+  test::RandomMatrix m(40, 4);
+  Mat3 pull = Mat3::Zero();
+  pull(2, 2) = -100.0;
+  m.blocks.add_at(39, 39, pull);
+  const auto solver = make_spd_solver();
+  solver->analyse(m.blocks);
+  EXPECT_FALSE(solver->factorise(m.blocks));
+}
+
+TEST(SpdSolver, ANumberThatIsNoneIsNotPositiveDefinite) {
+  test::RandomMatrix m(20, 5);
+  m.blocks.add_at(7, 7, Mat3::Constant(std::numeric_limits<double>::quiet_NaN()));
+  const auto solver = make_spd_solver();
+  solver->analyse(m.blocks);
+  if (solver->factorise(m.blocks)) {   // then at least the answer must not look like one
+    Eigen::MatrixXd x = Eigen::MatrixXd::Ones(60, 1);
+    solver->solve(x);
+    EXPECT_FALSE(x.allFinite());
+  }
+}
+
+TEST(SpdSolver, TheUpperHalfOfDiagonalBlocksIsIgnored) {
+  test::RandomMatrix m(20, 6);
+  const auto solver = make_spd_solver();
+  solver->analyse(m.blocks);
+  Mat3 upper = Mat3::Zero();
+  upper(0, 2) = 77.0;
+  m.blocks.add(m.blocks.slot(4, 4), upper);
+  ASSERT_TRUE(solver->factorise(m.blocks));
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(60, 1);
+  Eigen::MatrixXd x = b;
+  solver->solve(x);
+  EXPECT_LT((m.dense * x - b).norm(), 1e-13 * b.norm());
+}
+
+TEST(SpdSolver, TheSameMatrixGivesTheSameBits) {
+  const test::RandomMatrix m(150, 7);
+  Eigen::MatrixXd x[2];
+  for (auto& result : x) {
+    const auto solver = make_spd_solver();
+    solver->analyse(m.blocks);
+    ASSERT_TRUE(solver->factorise(m.blocks));
+    result = Eigen::VectorXd::LinSpaced(450, 0.0, 1.0);
+    solver->solve(result);
+  }
+  EXPECT_EQ((x[0] - x[1]).cwiseAbs().maxCoeff(), 0.0);
+}
+
+}  // namespace
+}  // namespace brainshift

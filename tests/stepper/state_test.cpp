@@ -1,0 +1,211 @@
+// What a stepper promises about its state: snapshots, failures, cancelling, repeatability, points.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "brainshift/error.hpp"
+#include "support/scenes.hpp"
+
+namespace brainshift {
+namespace {
+
+// A soft block on a floor in a box of fluid: every kind of force at once.
+Scene busy_scene() {
+  const Mesh mesh = test::make_mesh(test::make_box({30, 30, 30}, 3, 3, 3));
+  Scene scene{mesh,
+              {{0, Material(Law::corotational, 6.0, 0.45, test::tissue_density)}},
+              Vec3(0, 0, -standard_gravity),
+              Csf(test::fluid_density, FluidModel::separate,
+                  {test::make_compartment("all", test::box_wall({-3, -3, -3}, {33, 33, 34}),
+                                          test::all_faces(mesh))}),
+              {}};
+  const auto wall = test::box_wall({-0.5, -0.5, -0.2}, {30.5, 30.5, 30.5});
+  scene.constraints.obstacle("skull", test::surface_nodes(mesh),
+                             Surface::cavity(wall.points, wall.triangles));
+  scene.constraints.support("stem", test::nodes_where(mesh, [](const Vec3& x) { return x.z() == 0.0; }),
+                            Eigen::VectorXd::Constant(1, 0.3));
+  return scene;
+}
+
+TEST(State, RestoreBringsBackTheSameBits) {
+  Stepper stepper(busy_scene());
+  stepper.csf().set_lost_volume(0, 2000.0);
+  ASSERT_TRUE(stepper.solve_static().converged());
+  const auto kept = stepper.snapshot();
+  const Points u = stepper.displacement(), f = stepper.external_force();
+  const ContactState contact = stepper.contact(0);
+  stepper.csf().set_lost_volume(0, 9000.0);
+  stepper.set_gravity(standard_gravity * Vec3(0, -0.3, -0.9));
+  ASSERT_TRUE(stepper.solve_static().converged());
+  ASSERT_FALSE(test::same_bits(u, stepper.displacement()));
+  stepper.restore(kept);
+  EXPECT_TRUE(test::same_bits(u, stepper.displacement()));
+  EXPECT_TRUE(test::same_bits(f, stepper.external_force()));
+  EXPECT_EQ(stepper.csf().amount(0), 2000.0);
+  EXPECT_TRUE(test::same_bits(contact.force, stepper.contact(0).force));
+}
+
+TEST(State, ASolveAfterRestoreIsTheSolveItWouldHaveBeen) {
+  Stepper stepper(busy_scene());
+  stepper.csf().set_lost_volume(0, 2000.0);
+  ASSERT_TRUE(stepper.solve_static().converged());
+  const auto kept = stepper.snapshot();
+  stepper.csf().set_lost_volume(0, 6000.0);
+  ASSERT_TRUE(stepper.solve_static().converged());
+  const Points first = stepper.displacement();
+  stepper.restore(kept);
+  stepper.csf().set_lost_volume(0, 6000.0);
+  ASSERT_TRUE(stepper.solve_static().converged());
+  EXPECT_TRUE(test::same_bits(first, stepper.displacement()));
+}
+
+TEST(State, ASnapshotServesAnotherStepperOfTheSameScene) {
+  Stepper a(busy_scene()), b(busy_scene());
+  a.csf().set_lost_volume(0, 2000.0);
+  ASSERT_TRUE(a.solve_static().converged());
+  b.restore(a.snapshot());
+  EXPECT_TRUE(test::same_bits(a.displacement(), b.displacement()));
+}
+
+TEST(State, SolvingAgainWithoutAChangeMovesNothing) {
+  Stepper stepper(busy_scene());
+  stepper.csf().set_lost_volume(0, 2000.0);
+  ASSERT_TRUE(stepper.solve_static().converged());
+  const Points u = stepper.displacement();
+  ASSERT_TRUE(stepper.solve_static().converged());
+  EXPECT_LE(test::largest_distance(u, stepper.displacement()), 1e-9);
+}
+
+TEST(State, TwoRunsGiveTheSameBits) {
+  Points u[2];
+  for (Points& result : u) {
+    Stepper stepper(busy_scene());
+    stepper.csf().set_lost_volume(0, 5000.0);
+    ASSERT_TRUE(stepper.solve_static().converged());
+    result = stepper.displacement();
+  }
+  EXPECT_TRUE(test::same_bits(u[0], u[1]));
+}
+
+TEST(State, CancellingLeavesTheStateAsItWas) {
+  int calls = 0, allowed = 1 << 30;
+  StepperOptions options;
+  options.progress = [&](const Progress& p) {
+    EXPECT_GE(p.residual, 0.0);
+    EXPECT_GT(p.iteration, 0);
+    EXPECT_GT(p.load_factor, 0.0);
+    return ++calls < allowed;
+  };
+  Stepper stepper(busy_scene(), options);
+  stepper.csf().set_lost_volume(0, 2000.0);
+  ASSERT_TRUE(stepper.solve_static().converged());
+  EXPECT_GT(calls, 0);
+  const Points before = stepper.displacement();
+  const ContactState contact = stepper.contact(0);
+  calls = 0;
+  allowed = 1;
+  stepper.csf().set_lost_volume(0, 9000.0);
+  const SolveReport report = stepper.solve_static();
+  EXPECT_EQ(report.status, Status::cancelled);
+  EXPECT_EQ(calls, 1);
+  EXPECT_TRUE(test::same_bits(before, stepper.displacement()));
+  EXPECT_TRUE(test::same_bits(contact.force, stepper.contact(0).force));
+  // and the next solve is that of an object that was never cancelled
+  allowed = 1 << 30;
+  ASSERT_TRUE(stepper.solve_static().converged());
+  Stepper fresh(busy_scene());
+  fresh.csf().set_lost_volume(0, 2000.0);
+  ASSERT_TRUE(fresh.solve_static().converged());
+  fresh.csf().set_lost_volume(0, 9000.0);
+  ASSERT_TRUE(fresh.solve_static().converged());
+  EXPECT_TRUE(test::same_bits(fresh.displacement(), stepper.displacement()));
+}
+
+TEST(State, AFailedSolveLeavesNoTraceInTheNext) {
+  Stepper stepper(busy_scene());
+  stepper.csf().set_lost_volume(0, 2000.0);
+  ASSERT_TRUE(stepper.solve_static().converged());
+  const Points before = stepper.displacement();
+  const CompartmentState at = stepper.compartment(0);
+  stepper.csf().set_lost_volume(0, 1e9);
+  EXPECT_THROW(stepper.solve_static(), Error);
+  EXPECT_TRUE(test::same_bits(before, stepper.displacement()));
+  EXPECT_EQ(stepper.compartment(0).head, at.head);
+  stepper.csf().set_lost_volume(0, 4000.0);
+  ASSERT_TRUE(stepper.solve_static().converged());
+  Stepper fresh(busy_scene());
+  for (double lost : {2000.0, 4000.0}) {
+    fresh.csf().set_lost_volume(0, lost);
+    ASSERT_TRUE(fresh.solve_static().converged());
+  }
+  EXPECT_TRUE(test::same_bits(fresh.displacement(), stepper.displacement()));
+}
+
+TEST(State, TheCertificateHoldsForEveryLaw) {
+  for (Law law : {Law::linear, Law::corotational, Law::st_venant_kirchhoff, Law::stable_neo_hookean}) {
+    Scene scene = busy_scene();
+    scene.materials = {{0, Material(law, 6.0, 0.45, test::tissue_density)}};
+    Stepper stepper(scene);
+    stepper.csf().set_lost_volume(0, 9000.0);
+    const SolveReport r = stepper.solve_static();
+    ASSERT_TRUE(r.converged()) << to_string(law) << r.message;
+    EXPECT_LE(r.residual, 1e-8);
+    EXPECT_LE(r.complementarity, 1e-8);
+    EXPECT_LE(r.violation, 1e-8 * stepper.mesh().diameter());
+    EXPECT_GT(r.smallest_jacobian, 0.0);
+    EXPECT_NEAR(r.smallest_jacobian, stepper.jacobians().minCoeff(), 1e-12);
+    EXPECT_GT(r.energy, 0.0);
+    EXPECT_EQ(r.load_factor, 1.0);
+    EXPECT_GE(r.factorisations, 1);
+    // The residual again, from the public forces alone: contact, springs in internal_force.
+    const Points rest =
+        stepper.external_force() - stepper.internal_force() + [&] {
+          Points contact = Points::Zero(stepper.mesh().node_count(), 3);
+          const ContactState c = stepper.contact(0);
+          const Indices& nodes = scene.constraints.group(0).nodes;
+          for (std::size_t i = 0; i < nodes.size(); ++i) contact.row(nodes[i]) += c.force.row(Eigen::Index(i));
+          return contact;
+        }();
+    const double scale = std::max(stepper.external_force().cwiseAbs().maxCoeff(),
+                                  stepper.internal_force().cwiseAbs().maxCoeff());
+    EXPECT_LE(rest.cwiseAbs().maxCoeff(), 2e-8 * scale) << to_string(law);
+  }
+}
+
+TEST(Points, DisplacementAtAndRestPointsOfAreInverse) {
+  Stepper stepper(busy_scene());
+  stepper.csf().set_lost_volume(0, 9000.0);
+  ASSERT_TRUE(stepper.solve_static().converged());
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> inside(0.5, 29.5);
+  Points rest(200, 3);
+  for (Eigen::Index i = 0; i < rest.size(); ++i) rest.data()[i] = inside(random);
+  const PointValues u = stepper.displacement_at(rest);
+  const PointValues back = stepper.rest_points_of(rest + u.values);
+  // barycentric weights: round-off of the size of the mesh
+  EXPECT_LE(test::largest_distance(back.values, rest), 1e-11);
+  for (std::size_t i = 0; i < u.tet.size(); ++i) EXPECT_GE(u.tet[i], 0);
+}
+
+TEST(Points, NodesAreGivenTheirOwnDisplacement) {
+  Stepper stepper(busy_scene());
+  stepper.csf().set_lost_volume(0, 9000.0);
+  ASSERT_TRUE(stepper.solve_static().converged());
+  const PointValues at = stepper.displacement_at(stepper.mesh().nodes());
+  EXPECT_LE(test::largest_distance(at.values, stepper.displacement()), 1e-12);
+}
+
+TEST(Points, OutsideIsNotANumberAndSaysSo) {
+  Stepper stepper(busy_scene());
+  Points far(2, 3);
+  far << 15, 15, 15, 100, 0, 0;
+  for (const PointValues& v : {stepper.displacement_at(far), stepper.rest_points_of(far)}) {
+    EXPECT_GE(v.tet[0], 0);
+    EXPECT_EQ(v.tet[1], -1);
+    EXPECT_TRUE(v.values.row(0).allFinite());
+    EXPECT_TRUE(std::isnan(v.values(1, 0)));
+  }
+}
+
+}  // namespace
+}  // namespace brainshift

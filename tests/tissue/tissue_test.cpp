@@ -1,0 +1,264 @@
+// Energy, forces and tangent of assembled tissue: each is the derivative of the one before, a
+// constant strain is reproduced, a rigid motion is free.
+#include "tissue/tissue.hpp"
+
+#include <numeric>
+#include <random>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "support/scenes.hpp"
+
+namespace brainshift {
+namespace {
+
+const Law laws[] = {Law::linear, Law::corotational, Law::st_venant_kirchhoff, Law::stable_neo_hookean};
+
+// A cube of irregular tets: inner nodes moved by up to a fifth of an edge, two regions.
+Mesh irregular_cube(double size = 10.0, int cells = 3) {
+  auto box = test::make_box(Vec3::Constant(size), cells, cells, cells);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> shift(-0.2 * size / cells, 0.2 * size / cells);
+  for (Eigen::Index i = 0; i < box.points.rows(); ++i) {
+    const auto p = box.points.row(i);
+    if (p.minCoeff() > 0.0 && p.maxCoeff() < size) {
+      for (int axis = 0; axis < 3; ++axis) box.points(i, axis) += shift(random);
+    }
+  }
+  Indices regions;
+  for (Eigen::Index t = 0; t < box.tets.rows(); ++t) regions.push_back(t % 3 == 0 ? 4 : 0);
+  return test::make_mesh(box, regions);
+}
+
+std::vector<std::pair<Index, Material>> two_materials(Law law) {
+  return {{4, Material(law, 2.0, 0.3, 2e-6)}, {0, Material(law, 6.0, 0.45, 1e-6)}};
+}
+
+std::vector<std::pair<Index, Material>> one_material(Law law) {
+  return {{4, Material(law, 6.0, 0.45, 1e-6)}, {0, Material(law, 6.0, 0.45, 1e-6)}};
+}
+
+Points random_motion(const Mesh& mesh, double by) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> shift(-by, by);
+  return Points::NullaryExpr(mesh.node_count(), 3, [&] { return shift(random); });
+}
+
+Points force_at(const Tissue& tissue, const Points& u) {
+  Points f;
+  tissue.internal_force(u, f);
+  return f;
+}
+
+Indices identity(Index count) {
+  Indices same(static_cast<std::size_t>(count));
+  std::iota(same.begin(), same.end(), 0);
+  return same;
+}
+
+Eigen::MatrixXd dense(const BlockMatrix& K) {
+  Eigen::MatrixXd full(3 * K.blocks(), 3 * K.blocks());
+  Eigen::VectorXd y;
+  for (Index j = 0; j < full.cols(); ++j) {
+    K.multiply(Eigen::VectorXd::Unit(full.cols(), j), y);
+    full.col(j) = y;
+  }
+  return full;
+}
+
+TEST(Tissue, ForceIsTheGradientOfTheEnergy) {
+  const Mesh mesh = irregular_cube(10.0, 2);
+  const double h = 1e-6 * 5.0;   // of an edge
+  for (Law law : laws) {
+    const Tissue tissue(mesh, two_materials(law));
+    const Points u = random_motion(mesh, 0.5), f = force_at(tissue, u);
+    for (Eigen::Index j = 0; j < u.size(); ++j) {
+      Points plus = u, minus = u;
+      plus.data()[j] += h;
+      minus.data()[j] -= h;
+      // rel. 1e-6 of the largest entry (VERIFICATION of derivatives)
+      EXPECT_NEAR((tissue.energy(plus) - tissue.energy(minus)) / (2 * h), f.data()[j],
+                  1e-6 * f.cwiseAbs().maxCoeff()) << to_string(law);
+    }
+  }
+}
+
+TEST(Tissue, TangentIsTheGradientOfTheForceAlsoWithTiedNodes) {
+  // Node 26 (a corner) is tied to node 0 (the opposite corner): they share a block.
+  const Mesh mesh = irregular_cube(10.0, 2);
+  const double h = 1e-6 * 5.0;
+  for (bool tied : {false, true}) {
+    Indices slots = identity(mesh.node_count());
+    if (tied) slots[26] = 0;
+    const Index blocks = mesh.node_count() - (tied ? 1 : 0);
+    std::vector<Indices> near(static_cast<std::size_t>(blocks));
+    for (Index i = 0; i < blocks; ++i)
+      for (Index j = 0; j < blocks; ++j)
+        if (i != j) near[std::size_t(i)].push_back(j);
+    for (Law law : laws) {
+      const Tissue tissue(mesh, two_materials(law));
+      Points u = random_motion(mesh, 0.5);
+      if (tied) u.row(26) = u.row(0);
+      BlockMatrix matrix(near);
+      const ElementMap map = tissue.map_elements(slots, matrix);
+      Points f;
+      tissue.tangent(u, false, map, f, matrix);
+      EXPECT_LE((f - force_at(tissue, u)).cwiseAbs().maxCoeff(), 1e-14 * f.cwiseAbs().maxCoeff());
+      const Eigen::MatrixXd K = dense(matrix);
+      EXPECT_EQ((K - K.transpose()).cwiseAbs().maxCoeff(), 0.0);
+      for (Index j = 0; j < 3 * blocks; ++j) {
+        Points plus = u, minus = u;
+        for (Index n = 0; n < mesh.node_count(); ++n) {
+          if (slots[std::size_t(n)] != j / 3) continue;
+          plus(n, j % 3) += h;
+          minus(n, j % 3) -= h;
+        }
+        const Points slope = (force_at(tissue, plus) - force_at(tissue, minus)) / (2 * h);
+        Eigen::VectorXd column = Eigen::VectorXd::Zero(3 * blocks);
+        for (Index n = 0; n < mesh.node_count(); ++n) {
+          column.segment<3>(3 * slots[std::size_t(n)]) += slope.row(n).transpose();
+        }
+        EXPECT_LT((K.col(j) - column).cwiseAbs().maxCoeff(), 1e-6 * K.cwiseAbs().maxCoeff())
+            << to_string(law);
+      }
+    }
+  }
+}
+
+TEST(Tissue, DefiniteTangentHasNoNegativeEigenvalue) {
+  const Mesh mesh = irregular_cube(10.0, 2);
+  std::vector<Indices> near(std::size_t(mesh.node_count()));
+  for (Index i = 0; i < mesh.node_count(); ++i)
+    for (Index j = 0; j < mesh.node_count(); ++j)
+      if (i != j) near[std::size_t(i)].push_back(j);
+  for (Law law : laws) {
+    const Tissue tissue(mesh, two_materials(law));
+    BlockMatrix matrix(near);
+    Points f;
+    // strong motion: some tets are inverted, tangents of the nonlinear laws indefinite
+    tissue.tangent(random_motion(mesh, 2.5), true,
+                   tissue.map_elements(identity(mesh.node_count()), matrix), f, matrix);
+    const Eigen::MatrixXd K = dense(matrix);
+    const double lowest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues()[0];
+    EXPECT_GE(lowest, -1e-12 * K.cwiseAbs().maxCoeff()) << to_string(law);
+  }
+}
+
+TEST(PatchTest, AnAffineMotionGivesConstantStressAndNoForceInside) {
+  const Mesh mesh = irregular_cube();
+  Mat3 G;
+  G << 0.10, -0.05, 0.02, 0.07, -0.08, 0.03, -0.04, 0.06, 0.05;
+  const Points u = mesh.nodes() * G.transpose();
+  for (Law law : laws) {
+    const Tissue tissue(mesh, one_material(law));
+    const Points f = force_at(tissue, u);
+    const Mat3 P = Material(law, 6.0, 0.45, 0.0).stress(G);
+    const double scale = P.cwiseAbs().maxCoeff() * 10.0 * 10.0;
+    // Nodes inside feel nothing; the whole virial is that of the constant stress.
+    const Indices outside = test::surface_nodes(mesh);
+    std::vector<bool> on_surface(std::size_t(mesh.node_count()), false);
+    for (Index i : outside) on_surface[std::size_t(i)] = true;
+    for (Index i = 0; i < mesh.node_count(); ++i) {
+      if (!on_surface[std::size_t(i)]) EXPECT_LE(f.row(i).norm(), 1e-12 * scale) << to_string(law);
+    }
+    const Mat3 virial = f.transpose() * mesh.nodes() / mesh.volume();
+    EXPECT_LE((virial - P).cwiseAbs().maxCoeff(), 1e-12 * P.cwiseAbs().maxCoeff()) << to_string(law);
+    EXPECT_NEAR(tissue.energy(u), mesh.volume() * Material(law, 6.0, 0.45, 0.0).energy(G),
+                1e-12 * tissue.energy(u));
+  }
+}
+
+TEST(RigidMotion, CostsNothingForTheNonlinearLaws) {
+  const Mesh mesh = irregular_cube();
+  for (double angle : {1e-3, 0.7, 2.9}) {
+    const Mat3 R = Eigen::AngleAxisd(angle, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
+    Points u = mesh.nodes() * (R - Mat3::Identity()).transpose();
+    u.rowwise() += Vec3(3, -7, 11).transpose();
+    for (Law law : {Law::corotational, Law::st_venant_kirchhoff, Law::stable_neo_hookean}) {
+      const Tissue tissue(mesh, two_materials(law));
+      // 1e-12 E L^2; the largest coefficient counts, 2 (lambda + mu) ~ 40 kPa
+      EXPECT_LE(force_at(tissue, u).cwiseAbs().maxCoeff(), 1e-12 * 40.0 * 100.0)
+          << to_string(law) << " " << angle;
+    }
+  }
+}
+
+TEST(RigidMotion, ATranslationCostsNothingForAnyLaw) {
+  const Mesh mesh = irregular_cube();
+  Points u(mesh.node_count(), 3);
+  u.rowwise() = Vec3(3, -7, 11).transpose();
+  for (Law law : laws) {
+    EXPECT_LE(force_at(Tissue(mesh, two_materials(law)), u).cwiseAbs().maxCoeff(), 1e-12 * 600.0);
+  }
+}
+
+TEST(Tissue, TinyDisplacementsKeepTheirDigits) {
+  // Forces are formed from grad u, not F - I: a motion of 1e-12 has the force of one of 1e-3, scaled.
+  const Mesh mesh = irregular_cube();
+  for (Law law : laws) {
+    const Tissue tissue(mesh, two_materials(law));
+    const Points u = random_motion(mesh, 1.0);
+    const Points tiny = force_at(tissue, 1e-12 * u) * 1e12, small = force_at(tissue, 1e-9 * u) * 1e9;
+    EXPECT_LE((tiny - small).cwiseAbs().maxCoeff(), 1e-7 * small.cwiseAbs().maxCoeff())
+        << to_string(law);
+  }
+}
+
+TEST(Tissue, RelabellingNodesAndTurningTetsChangesNothing) {
+  const Mesh mesh = irregular_cube();
+  const Index n = mesh.node_count();
+  std::mt19937 random(11);
+  Indices to = identity(n);
+  std::shuffle(to.begin(), to.end(), random);
+  Points nodes(n, 3), u(n, 3);
+  const Points u0 = random_motion(mesh, 0.3);
+  for (Index i = 0; i < n; ++i) {
+    nodes.row(to[std::size_t(i)]) = mesh.nodes().row(i);
+    u.row(to[std::size_t(i)]) = u0.row(i);
+  }
+  Tets tets(mesh.tet_count(), 4);
+  for (Index t = 0; t < mesh.tet_count(); ++t) {
+    const int turn[4] = {1, 2, 0, 3};   // an even permutation keeps the orientation
+    for (int a = 0; a < 4; ++a) {
+      tets(t, a) = to[std::size_t(mesh.tets()(t, t % 2 ? turn[a] : a))];
+    }
+  }
+  const Mesh other(nodes, tets, mesh.regions());
+  for (Law law : laws) {
+    const Tissue a(mesh, two_materials(law)), b(other, two_materials(law));
+    EXPECT_NEAR(a.energy(u0), b.energy(u), 1e-13 * a.energy(u0));
+    const Points fa = force_at(a, u0), fb = force_at(b, u);
+    for (Index i = 0; i < n; ++i) {
+      EXPECT_LE((fa.row(i) - fb.row(to[std::size_t(i)])).norm(), 1e-13 * fa.cwiseAbs().maxCoeff() * 8)
+          << to_string(law);
+    }
+  }
+}
+
+TEST(Tissue, GravityCarriesTheMass) {
+  const Mesh mesh = irregular_cube();
+  const Tissue tissue(mesh, two_materials(Law::linear));
+  const double mass = 2e-6 * mesh.volume(4) + 1e-6 * mesh.volume(0);
+  EXPECT_NEAR(tissue.mass(), mass, 1e-14 * mass);
+  const Vec3 g(1, -2, 3);
+  EXPECT_LE((tissue.gravity_force(g).colwise().sum().transpose() - mass * g).norm(), 1e-13 * mass);
+}
+
+TEST(Tissue, JacobianIsTheChangeOfVolume) {
+  const Mesh mesh = irregular_cube();
+  const Tissue tissue(mesh, two_materials(Law::linear));
+  const Points u = random_motion(mesh, 0.4);
+  const Eigen::VectorXd J = tissue.jacobians(u);
+  const auto volume = [&](const Points& x, Index t) {
+    Vec3 p[4];
+    for (int a = 0; a < 4; ++a) p[a] = x.row(mesh.tets()(t, a)).transpose();
+    return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
+  };
+  for (Index t = 0; t < mesh.tet_count(); ++t) {
+    EXPECT_NEAR(J[t], volume(mesh.nodes() + u, t) / volume(mesh.nodes(), t), 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace brainshift

@@ -24,7 +24,8 @@ Procedure::Procedure(const Head& head, const Options& options)
       m_gravity(gravity_of(options.elevation)),
       m_stepper(make_stepper(head, options, m_ids)),
       m_full_level(full_level(head, m_gravity)),
-      m_rest_volume(head.brain.volume()),
+      m_volume_before(head.brain.volume()),
+      m_before(Points::Zero(head.brain.node_count(), 3)),
       m_facing_falx(head.falx) {
   std::vector<char> medial(std::size_t(head.brain.node_count()), 0);
   for (std::size_t i = 0; i < medial.size(); ++i) medial[i] = head.pair[i] >= 0;
@@ -120,12 +121,19 @@ StageResult Procedure::run(int number, const std::string& title) {
   set_fluid(number);
   result.report = m_stepper.solve_static();
   if (!m_options.quiet && isatty(2)) std::fprintf(stderr, "\r%60s\r", "");
+  if (number == 0) {
+    m_before = m_stepper.displacement();
+    m_volume_before = 0.0;
+    for (int side : {left, right}) {
+      m_volume_before += m_stepper.compartment(m_stepper.csf().find(name_of(side))).tissue_volume;
+    }
+  }
   measure(result);
   return result;
 }
 
 void Procedure::measure(StageResult& result) const {
-  const Points& u = m_stepper.displacement();
+  const Points u = shift();
   double volume = 0.0;
   for (int side : {left, right}) {
     result.fluid[side] = m_stepper.compartment(m_stepper.csf().find(name_of(side)));
@@ -134,11 +142,15 @@ void Procedure::measure(StageResult& result) const {
       result.surface_motion[side] = std::max(result.surface_motion[side], u.row(node).norm());
     }
   }
-  result.tissue_loss = m_rest_volume - volume;
+  result.tissue_loss = m_volume_before - volume;
   for (Index node : m_facing_falx) result.midline_shift += u(node, 0) / double(m_facing_falx.size());
-  const PointValues moved = m_stepper.displacement_at(m_landmarks);
+  const Location where = m_head.brain.locate(m_landmarks);
   for (std::size_t i = 0; i < m_names.size(); ++i) {
-    result.shifts[m_names[i]] = moved.values.row(Eigen::Index(i)).transpose();
+    Vec3& moved = result.shifts[m_names[i]] = Vec3::Zero();
+    for (int a = 0; a < 4; ++a) {
+      const Index node = m_head.brain.tets()(where.tet[i], a);
+      moved += where.weights(Eigen::Index(i), a) * u.row(node).transpose();
+    }
   }
 }
 

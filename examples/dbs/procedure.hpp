@@ -16,11 +16,11 @@ struct StageResult {
   std::string title;
   SolveReport report;
   CompartmentState fluid[2];       // by Side
-  double tissue_loss;              // mm^3: volume of the brain at the reference minus now
+  double tissue_loss;              // mm^3: volume of the brain at stage 0 minus now
   double surface_motion[2];        // mm; largest of the side's outer surface
   double midline_shift;            // mm, positive to the right; mean of the nodes facing the falx
   std::map<std::string, Vec3> shifts;   // mm, of the landmarks
-};
+};   // all motions count from stage 0
 
 // Drives a Stepper through the stages. The library knows none of them.
 class Procedure {
@@ -28,6 +28,9 @@ class Procedure {
   Procedure(const Head& head, const Options& options);
 
   Stepper& stepper() { return m_stepper; }
+  const Stepper& stepper() const { return m_stepper; }
+  // Displacement since stage 0 (N x 3, mm): stage 0 of a load-free image moves too.
+  Points shift() const { return m_stepper.displacement() - m_before; }
   const SceneIds& ids() const { return m_ids; }
   const Vec3& gravity() const { return m_gravity; }
 
@@ -50,7 +53,8 @@ class Procedure {
   Vec3 m_gravity;
   SceneIds m_ids;
   Stepper m_stepper;
-  double m_full_level, m_rest_volume;
+  double m_full_level, m_volume_before;
+  Points m_before;      // displacement at stage 0
   Indices m_outer[2], m_facing_falx;
   std::vector<std::string> m_names;
   Points m_landmarks;   // moved onto the nearest node where outside the mesh

@@ -157,9 +157,9 @@ std::string write_stage(const std::string& folder, const Head& head, Procedure& 
     regions[t] = head.brain.regions()[std::size_t(t)];
   }
   io::Grid grid;
-  grid.points = stepper.positions();
+  grid.points = stepper.positions();   // deformed
   grid.tets = head.brain.tets();
-  grid.node_fields = {{"displacement", stepper.displacement(), false},
+  grid.node_fields = {{"displacement", procedure.shift(), false},
                       {"pressure", pressure, false},
                       {"wetted", (pressure.array() != 0.0).cast<double>().matrix(), true},
                       {"contact_force", contact_forces(head, procedure), false}};

@@ -15,7 +15,7 @@ void print_stage(const StageResult& stage);
 // stages.json and stages.csv; written whole or not at all.
 void write_tables(const std::string& folder, const Head& head, const Options& options,
                   const std::vector<StageResult>& stages);
-// stage_N.vtu: displacement, pressure, wetted, contact_force on nodes; region, jacobian on tets.
+// stage_N.vtu: displacement (since stage 0, on the deformed mesh), pressure, wetted, contact_force on nodes; region, jacobian on tets.
 // Returns the file name.
 std::string write_stage(const std::string& folder, const Head& head, Procedure& procedure,
                         int number);

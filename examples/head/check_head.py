@@ -80,7 +80,8 @@ def check_volumes(table, head, parts, wall, nodes, tets):
     table.row("  / smooth segmentation", csf / expected_csf, 0.95, 1.05)
 
 
-def check_topology(table, nodes, tets, parts):
+def check_topology(table, head, nodes, tets, parts):
+    table.row("tets missing against head.json", head["mesh"]["tets"] - len(tets), 0, 0)
     table.row("smallest tet volume (mm3)", trimesh.tet_volumes(nodes, tets).min(), 1e-6)
     angles = trimesh.dihedral_angles(nodes, tets).min(axis=1)
     table.row("smallest dihedral angle (deg)", angles.min(), 8)
@@ -241,7 +242,7 @@ def main(folder, record):
           f"mean edge {head['mesh']['edge']:.1f} mm, {len(wall_triangles)} wall triangles")
     parts = halves(nodes, tets, cells["region"])
     check_volumes(table, head, parts, wall, nodes, tets)
-    check_topology(table, nodes, tets, parts)
+    check_topology(table, head, nodes, tets, parts)
     check_tags(table, head, nodes, tags)
     check_gaps(table, head, nodes, parts, tags, wall)
     check_paths(table, head, nodes, parts, wall)

@@ -106,7 +106,7 @@ TEST(Tissue, TangentIsTheGradientOfTheForceAlsoWithTiedNodes) {
       tissue.tangent(u, false, map, f, matrix);
       EXPECT_LE((f - force_at(tissue, u)).cwiseAbs().maxCoeff(), 1e-14 * f.cwiseAbs().maxCoeff());
       const Eigen::MatrixXd K = dense(matrix);
-      EXPECT_EQ((K - K.transpose()).cwiseAbs().maxCoeff(), 0.0);
+      EXPECT_LE((K - K.transpose()).cwiseAbs().maxCoeff(), 1e-14 * K.cwiseAbs().maxCoeff());
       for (Index j = 0; j < 3 * blocks; ++j) {
         Points plus = u, minus = u;
         for (Index n = 0; n < mesh.node_count(); ++n) {
@@ -160,7 +160,8 @@ TEST(PatchTest, AnAffineMotionGivesConstantStressAndNoForceInside) {
     std::vector<bool> on_surface(std::size_t(mesh.node_count()), false);
     for (Index i : outside) on_surface[std::size_t(i)] = true;
     for (Index i = 0; i < mesh.node_count(); ++i) {
-      if (!on_surface[std::size_t(i)]) EXPECT_LE(f.row(i).norm(), 1e-12 * scale) << to_string(law);
+      if (on_surface[std::size_t(i)]) continue;
+      EXPECT_LE(f.row(i).norm(), 1e-12 * scale) << to_string(law);
     }
     const Mat3 virial = f.transpose() * mesh.nodes() / mesh.volume();
     EXPECT_LE((virial - P).cwiseAbs().maxCoeff(), 1e-12 * P.cwiseAbs().maxCoeff()) << to_string(law);

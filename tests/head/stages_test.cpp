@@ -1,0 +1,48 @@
+// Every stage of the procedure ends in a certified balance, in time.
+#include <chrono>
+
+#include <gtest/gtest.h>
+
+#include "head_scene.hpp"
+
+namespace dbs {
+namespace {
+
+TEST(Stages, EndInBalanceAndInTime) {
+  const auto start = std::chrono::steady_clock::now();
+  Procedure procedure(shipped_head(), quiet_options());
+  for (const auto& [number, title] : procedure.plan()) {
+    const StageResult s = procedure.run(number, title);
+    const SolveReport& r = s.report;
+    std::printf("stage %d: residual %.1e, complementarity %.1e, violation %.1e mm, min J %.3f, "
+                "%d iterations, %d factorisations, %.2f s\n",
+                number, r.residual, r.complementarity, r.violation, r.smallest_jacobian,
+                r.iterations, r.factorisations, r.seconds);
+    EXPECT_TRUE(r.converged()) << r.message;
+    EXPECT_LE(r.residual, 1e-8);          // of the largest force norm
+    EXPECT_LE(r.complementarity, 1e-8);
+    EXPECT_GT(r.smallest_jacobian, 0.0);
+    for (const auto& [name, shift] : s.shifts) EXPECT_TRUE(shift.allFinite()) << name;
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  std::printf("all stages: %.1f s (limit %.0f)\n", seconds.count(), double(SECONDS_LIMIT));
+  EXPECT_LE(seconds.count(), SECONDS_LIMIT);
+}
+
+// Frictionless and elastic: the state does not depend on the way to it.
+TEST(Stages, SplitInTwoEndAtTheSameState) {
+  HeadStepper once(quiet_options()), twice(quiet_options());
+  once.stepper.csf().set_lost_volume(once.compartment(right), 20.0 * mm3_per_ml);
+  ASSERT_TRUE(once.stepper.solve_static().converged());
+  for (double ml : {10.0, 20.0}) {
+    twice.stepper.csf().set_lost_volume(twice.compartment(right), ml * mm3_per_ml);
+    ASSERT_TRUE(twice.stepper.solve_static().converged());
+  }
+  const double apart =
+      largest_motion(once.stepper.displacement() - twice.stepper.displacement());
+  std::printf("20 mL at once and in two: %.1e mm apart\n", apart);
+  EXPECT_LE(apart, 1e-6);
+}
+
+}  // namespace
+}  // namespace dbs

@@ -1,6 +1,7 @@
 #include "options.hpp"
 
 #include <charconv>
+#include <cmath>
 
 #include <CLI/CLI.hpp>
 
@@ -10,9 +11,13 @@ Loss parse_loss(const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const std::string unit(end, text.data() + text.size());
-  if (error == std::errc() && unit == "mL") return {FluidLaw::lost_volume, value * mm3_per_ml};
-  if (error == std::errc() && unit == "mL-air") return {FluidLaw::air_volume, value * mm3_per_ml};
-  if (error == std::errc() && unit == "mm") return {FluidLaw::level, value};
+  const bool number = error == std::errc() && std::isfinite(value);
+  if (number && value < 0.0) {
+    throw Error(ErrorCode::fluid_volume, "'" + text + "' is negative: fluid is lost, not gained");
+  }
+  if (number && unit == "mL") return {FluidLaw::lost_volume, value * mm3_per_ml};
+  if (number && unit == "mL-air") return {FluidLaw::air_volume, value * mm3_per_ml};
+  if (number && unit == "mm") return {FluidLaw::level, value};
   throw Error(ErrorCode::invalid_argument,
               "'" + text + "' is no loss of fluid: write 20mL (fluid), 20mL-air or 35mm (level)");
 }

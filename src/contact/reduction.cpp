@@ -9,12 +9,11 @@ namespace {
 // Rows whose directions differ by less than this (sine of the angle) count as dependent.
 constexpr double dependence = 1e-6;
 
-Vec3 some_normal_to(const Vec3& a) {
-  Vec3 axis = Vec3::UnitX();
+Vec3 axis_far_from(const Vec3& a) {
   if (std::abs(a.x()) > std::abs(a.y()) || std::abs(a.x()) > std::abs(a.z())) {
-    axis = std::abs(a.y()) <= std::abs(a.z()) ? Vec3::UnitY() : Vec3::UnitZ();
+    return std::abs(a.y()) <= std::abs(a.z()) ? Vec3::UnitY() : Vec3::UnitZ();
   }
-  return (axis - axis.dot(a) * a).normalized();
+  return Vec3::UnitX();
 }
 
 Vec3 cross(const Vec3& a, const Vec3& b) {
@@ -30,16 +29,21 @@ Mat3 Reduction::Block::free() const {
   return f;
 }
 
-Reduction::Reduction(Index blocks, const std::vector<NodeRow>& rows)
+Reduction::Reduction(Index blocks, const std::vector<NodeRow>& rows, const Reduction* like)
     : m_blocks(std::size_t(blocks)), m_values(std::size_t(blocks), Vec3::Zero()) {
-  for (const NodeRow& row : rows) add_row(row);
+  for (const NodeRow& row : rows) add_row(row, like);
   m_particular.setZero(3 * blocks);
   std::vector<Index> pairs;
   for (Index i = 0; i < blocks; ++i) {
     Block& b = m_blocks[std::size_t(i)];
     if (b.plain) continue;
     // Complete the held directions to an orthonormal basis.
-    if (b.held == 1) b.q.col(1) = some_normal_to(b.q.col(0));
+    if (b.held == 1) {
+      const Vec3 n = b.q.col(0);
+      const bool follow = like && like->m_blocks[std::size_t(i)].held == 1;
+      const Vec3 axis = follow ? Vec3(like->m_blocks[std::size_t(i)].q.col(1)) : axis_far_from(n);
+      b.q.col(1) = (axis - axis.dot(n) * n).normalized();
+    }
     if (b.held <= 2) b.q.col(2) = cross(b.q.col(0), b.q.col(1));
     // lower * beta = values, lower triangular; dx = sum beta_k q_k.
     const auto solve = [&b](Vec3 rhs) {
@@ -79,13 +83,16 @@ Vec3 Reduction::Block::rest_of(const Vec3& normal, Vec3& along) const {
 
 // A pair row is eliminated at the block given, or at its partner where the rows of the block leave
 // too little of its direction: a held block still holds its partner.
-void Reduction::add_row(NodeRow row) {
+void Reduction::add_row(NodeRow row, const Reduction* like) {
   Vec3 along;
   if (row.partner >= 0) {
     const Block& here = m_blocks[std::size_t(row.block)];
     const Block& there = m_blocks[std::size_t(row.partner)];
     if (here.pair >= 0 || there.pair >= 0) return;
-    if (here.rest_of(row.normal, along).norm() < 0.5 * there.rest_of(row.normal, along).norm()) {
+    const bool turn =
+        like ? like->m_blocks[std::size_t(row.partner)].pair >= 0
+             : here.rest_of(row.normal, along).norm() < 0.5 * there.rest_of(row.normal, along).norm();
+    if (turn) {
       std::swap(row.block, row.partner);
       row.normal = -row.normal;
     }

@@ -25,7 +25,9 @@ class Reduction {
  public:
   // rows: in order of precedence, pair rows last; a row that depends on earlier ones is left out
   // and gets multiplier 0. A block may stand in one pair row only.
-  Reduction(Index blocks, const std::vector<NodeRow>& rows);
+  // like: choose the free axes as near to its as can be, so that a factor of the matrix it reduced
+  // still serves (there is no choice of axes that is continuous in the normals by itself).
+  Reduction(Index blocks, const std::vector<NodeRow>& rows, const Reduction* like = nullptr);
 
   // A = T^T K T into a matrix whose pattern holds the pairs; fixed directions get `diagonal`.
   void reduce(const BlockMatrix& K, double diagonal, BlockMatrix& A) const;
@@ -55,7 +57,7 @@ class Reduction {
     Mat3 free() const;                 // q with the held columns zeroed
     Vec3 rest_of(const Vec3& normal, Vec3& along) const;
   };
-  void add_row(NodeRow row);
+  void add_row(NodeRow row, const Reduction* like);
   Mat3 coupling(const Block& b) const;  // T_i Q_partner: from y of the partner to dx of the block
 
   std::vector<Block> m_blocks;

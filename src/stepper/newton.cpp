@@ -84,7 +84,7 @@ void Newton::choose_active() {
   }
 }
 
-Reduction Newton::make_reduction() const {
+Reduction Newton::make_reduction(const Reduction* like) const {
   std::vector<NodeRow> rows = m_eq.fixed_rows();
   const std::size_t untagged = m_active.size();   // multipliers of fixed rows are not kept
   const Points& u = m_state.u;
@@ -99,7 +99,7 @@ Reduction Newton::make_reduction() const {
       rows.push_back({row.node, row.partner, m_forces.gaps[r].normal, -m_forces.gaps[r].gap, r});
     }
   }
-  return Reduction(m_eq.blocks().count(), rows);
+  return Reduction(m_eq.blocks().count(), rows, like);
 }
 
 bool Newton::factorise_shifted(const Reduction& reduction) {
@@ -201,7 +201,7 @@ bool Newton::update_active(const Step& step) {
 
 bool Newton::find_step(Step& step, bool fresh) {
   if (!fresh) {   // the factor at hand, with rows and forces of today
-    step = direction(make_reduction());
+    step = direction(make_reduction(&*m_factored));
     return step.dx.allFinite();
   }
   linearise();
@@ -224,6 +224,7 @@ bool Newton::find_step(Step& step, bool fresh) {
     step = direction(reduction);
     if (!step.dx.allFinite()) return false;
     const std::vector<char> used = m_active;
+    m_factored = reduction;
     if (!update_active(step)) return true;
     if (++change >= max_active_set_changes) {
       m_active = used;

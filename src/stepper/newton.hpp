@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "brainshift/stepper.hpp"
@@ -53,7 +54,7 @@ class Newton {
   void choose_active();
   bool linearise();                                      // assemble, reduce, factorise
   bool factorise_shifted(const Reduction& reduction);
-  Reduction make_reduction() const;
+  Reduction make_reduction(const Reduction* like = nullptr) const;
   Step direction(const Reduction& reduction);
   bool update_active(const Step& step);                  // true: the set changed
   bool find_step(Step& step, bool fresh);
@@ -79,6 +80,7 @@ class Newton {
   std::vector<RankOne> m_terms;
   std::vector<Eigen::VectorXd> m_columns, m_rows;   // the terms on blocks
   bool m_definite = false;
+  std::optional<Reduction> m_factored;  // the one the factor at hand was made with
 };
 
 }  // namespace brainshift

@@ -67,10 +67,13 @@ TEST(ConstraintSet, RefusesWhatCannotBeAndNamesTheGroup) {
   up << 0, 0, 1;
   longer << 0, 0, 2;
   expect_error(ErrorCode::empty, [&] { set.fix("culprit", {}); });
-  expect_error(ErrorCode::invalid_argument, [&] { set.fix("culprit", {0}, {false, false, false}); });
+  expect_error(ErrorCode::invalid_argument, [&] {
+    set.fix("culprit", {0}, {false, false, false});
+  });
   expect_error(ErrorCode::size_mismatch, [&] { set.tie("culprit", {0, 1}, {2}); });
-  expect_error(ErrorCode::size_mismatch,
-               [&] { set.support("culprit", {0, 1, 2}, Eigen::Vector2d(1, 1)); });
+  expect_error(ErrorCode::size_mismatch, [&] {
+    set.support("culprit", {0, 1, 2}, Eigen::Vector2d(1, 1));
+  });
   expect_error(ErrorCode::invalid_argument,
                [&] { set.support("culprit", {0}, Eigen::VectorXd::Constant(1, -1.0)); });
   expect_error(ErrorCode::not_finite,

@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include "linear/spd_solver.hpp"
 
@@ -161,8 +161,8 @@ TEST(Reduction, PairsOfNeighboursWhosePartnersAreNeighboursAgree) {
 
 TEST(Reduction, ANodeWithSkullAndPairRowsAgrees) {
   Problem p(8);
-  p.row(3, p.direction());             // skull at the node
-  p.row(6, p.direction());             // and at the partner
+  p.row(3, p.direction());  // skull at the node
+  p.row(6, p.direction());  // and at the partner
   p.row(1, p.direction());
   p.row(1, p.direction());
   p.row(3, p.direction(), 6);
@@ -172,7 +172,7 @@ TEST(Reduction, ANodeWithSkullAndPairRowsAgrees) {
 
 TEST(Reduction, APairWhoseNodeIsHeldHoldsItsPartner) {
   Problem p(9);
-  for (int axis = 0; axis < 3; ++axis) p.row(3, Vec3::Unit(axis));   // all of the node
+  for (int axis = 0; axis < 3; ++axis) p.row(3, Vec3::Unit(axis));  // all of the node
   p.row(5, Vec3::UnitZ());                                          // only along the pair
   p.row(3, p.direction(), 6);
   p.row(5, Vec3::UnitZ(), 0);
@@ -217,7 +217,7 @@ TEST(Reduction, AFourthRowOfANodeIsLeftOut) {
 }
 
 TEST(Reduction, AMatrixSingularWithoutItsRowsIsDefiniteOnThem) {
-  Problem p(14, false);   // rank 3 n - 4
+  Problem p(14, false);  // rank 3 n - 4
   for (int axis = 0; axis < 3; ++axis) p.row(0, Vec3::Unit(axis));
   p.row(1, p.direction());
   p.row(2, p.direction(), 5);

@@ -24,7 +24,8 @@ TEST(Archimedes, ASubmergedBodyIsLiftedByTheWeightOfItsVolume) {
     const double volume = test::volume_below(scene.mesh, x, 1e3, &moment);
     const Points force = test::force_at(fluid, x, fluid.heads(x));
     // Linear pressure is integrated exactly: round-off of a sum of ~500 terms
-    EXPECT_LT((net(force) - Vec3(0, 0, test::weight * volume)).norm(), 1e-12 * test::weight * volume);
+    EXPECT_LT((net(force) - Vec3(0, 0, test::weight * volume)).norm(),
+              1e-12 * test::weight * volume);
     const Vec3 centre = moment / volume;
     EXPECT_LT(net_moment(force, x, centre).norm(), 1e-12 * test::weight * volume * 30.0);
   }
@@ -111,7 +112,8 @@ TEST(Archimedes, FacesThatAreNotWettedFeelNothing) {
   const Hydrostatics fluid(mesh, csf, test::gravity_down);
   const Points force = test::force_at(fluid, mesh.nodes(), fluid.heads(mesh.nodes()));
   // Only the top remains to push: head 15, top at 10, area 100, downwards.
-  EXPECT_LT((net(force) - Vec3(0, 0, -test::weight * 5.0 * 100.0)).norm(), 1e-12 * test::weight * 1e3);
+  EXPECT_LT((net(force) - Vec3(0, 0, -test::weight * 5.0 * 100.0)).norm(),
+            1e-12 * test::weight * 1e3);
 }
 
 }  // namespace

@@ -54,9 +54,9 @@ TEST(FluidErrors, AWallTurnedInsideOut) {
   const test::BallInCavity s;
   Compartment c = s.csf.compartment(0);
   c.wall_triangles.col(1).swap(c.wall_triangles.col(2));
-  EXPECT_THROW(Hydrostatics(s.mesh, Csf(test::fluid_density, FluidModel::separate, {c}),
-                            test::gravity_down),
-               Error);
+  EXPECT_THROW(
+      Hydrostatics(s.mesh, Csf(test::fluid_density, FluidModel::separate, {c}), test::gravity_down),
+      Error);
 }
 
 TEST(FluidErrors, AnOpenBody) {
@@ -106,7 +106,7 @@ TEST(FluidErrors, AmountsThatCannotBe) {
   expect_error(ErrorCode::not_finite, "'all'", [&] { s.csf.set_lost_volume(0, not_a_number); });
   expect_error(ErrorCode::index_out_of_range, "7", [&] { s.csf.set_full(7); });
   expect_error(ErrorCode::index_out_of_range, "-1", [&] { s.csf.set_full(-1); });
-  EXPECT_EQ(s.csf.law(0), FluidLaw::full);   // nothing was taken up
+  EXPECT_EQ(s.csf.law(0), FluidLaw::full);  // nothing was taken up
 }
 
 TEST(FluidErrors, MoreFluidThanThereIsLeavesTheLoadAsItWas) {

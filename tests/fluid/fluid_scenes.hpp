@@ -9,7 +9,7 @@
 namespace brainshift::test {
 
 const Vec3 gravity_down(0.0, 0.0, -standard_gravity);
-constexpr double weight = fluid_density * standard_gravity;   // kPa/mm
+constexpr double weight = fluid_density * standard_gravity;  // kPa/mm
 
 // A ball of tissue in a larger spherical cavity, both around the origin.
 struct BallInCavity {
@@ -30,7 +30,8 @@ inline Points shaken(const Mesh& mesh, double by, unsigned seed = 1) {
   return x;
 }
 
-inline Points force_at(const Hydrostatics& fluid, const Points& x, const std::vector<double>& heads) {
+inline Points force_at(const Hydrostatics& fluid, const Points& x,
+                       const std::vector<double>& heads) {
   Points force = Points::Zero(x.rows(), 3);
   fluid.add_force(x, heads, 1.0, force);
   return force;
@@ -59,7 +60,7 @@ inline double volume_below(const Mesh& mesh, const Points& x, double head, Vec3*
       add(low[0], low[1], low[2], low[3]);
     } else if (low.size() == 1) {
       add(low[0], cut(low[0], high[0]), cut(low[0], high[1]), cut(low[0], high[2]));
-    } else if (low.size() == 2) {   // a wedge: three tets
+    } else if (low.size() == 2) {  // a wedge: three tets
       const Vec3 a[2] = {low[0], low[1]};
       Vec3 c[2][2];
       for (int i = 0; i < 2; ++i)

@@ -7,7 +7,7 @@
 namespace brainshift {
 namespace {
 
-constexpr double volume_tolerance = 1e-3;   // mm^3: 1e-6 mL, asked for by the specification
+constexpr double volume_tolerance = 1e-3;  // mm^3: 1e-6 mL
 
 TEST(Levels, AHeadSolvedFromAVolumeGivesThatVolumeBack) {
   test::BallInCavity scene;

@@ -36,10 +36,10 @@ TEST(ReferenceLoad, AnotherPostureKeepsThePressureAtTheTopOfTheCavity) {
   const Csf csf(test::fluid_density, FluidModel::separate,
                 {test::make_compartment("box", test::box_wall({-5, -5, -5}, {15, 35, 15}),
                                         test::all_faces(mesh))},
-                18.0);   // 3 mm above the top at 15
+                18.0);  // 3 mm above the top at 15
   Hydrostatics fluid(mesh, csf, test::gravity_down);
   EXPECT_EQ(fluid.full_head(), 18.0);
-  fluid.configure(csf, Vec3(0, -standard_gravity, 0));   // now y is up, its top at 35
+  fluid.configure(csf, Vec3(0, -standard_gravity, 0));  // now y is up, its top at 35
   EXPECT_NEAR(fluid.full_head(), 38.0, 1e-12);
 }
 

@@ -8,7 +8,9 @@ namespace {
 
 using Dense = Eigen::MatrixXd;
 
-Eigen::VectorXd flat(const Points& p) { return Eigen::Map<const Eigen::VectorXd>(p.data(), p.size()); }
+Eigen::VectorXd flat(const Points& p) {
+  return Eigen::Map<const Eigen::VectorXd>(p.data(), p.size());
+}
 
 std::vector<Indices> neighbours(const Mesh& mesh) {
   std::vector<Indices> near(std::size_t(mesh.node_count()));
@@ -49,8 +51,11 @@ struct Case : test::BallInCavity {
   Hydrostatics fluid;
   Indices slots;
   Points x;
-  Case() : BallInCavity(30.0, 2), fluid(mesh, csf, test::gravity_down), slots(test::all_nodes(mesh)),
-           x(test::shaken(mesh, 2.0)) {}
+  Case()
+      : BallInCavity(30.0, 2),
+        fluid(mesh, csf, test::gravity_down),
+        slots(test::all_nodes(mesh)),
+        x(test::shaken(mesh, 2.0)) {}
   Dense tangent(const std::vector<double>& heads) const {
     BlockMatrix K(neighbours(mesh));
     fluid.add_tangent(x, heads, slots, K);
@@ -150,11 +155,12 @@ struct TwoSides {
   Mesh mesh;
   Csf csf;
   explicit TwoSides(FluidModel model)
-      : mesh(make()), csf(test::fluid_density, model,
-                          {test::make_compartment("left", test::box_wall({-14, -2, -2}, {0, 12, 12}),
-                                                  mesh.faces_of_region(0)),
-                           test::make_compartment("right", test::box_wall({0, -2, -2}, {14, 12, 12}),
-                                                  mesh.faces_of_region(1))}) {}
+      : mesh(make()),
+        csf(test::fluid_density, model,
+            {test::make_compartment("left", test::box_wall({-14, -2, -2}, {0, 12, 12}),
+                                    mesh.faces_of_region(0)),
+             test::make_compartment("right", test::box_wall({0, -2, -2}, {14, 12, 12}),
+                                    mesh.faces_of_region(1))}) {}
   static Mesh make() {
     const auto left = test::moved(test::make_box({10, 10, 10}, 1, 1, 1), {-11, 0, 0});
     const auto right = test::moved(test::make_box({10, 10, 10}, 1, 1, 1), {1, 0, 0});

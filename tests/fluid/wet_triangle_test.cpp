@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 namespace brainshift {
 namespace {
@@ -104,7 +104,7 @@ TEST(WetTriangle, ALevelTriangleIsWetOrDryAsAWhole) {
 TEST(WetTriangle, WithoutClippingADryTriangleIsUnderSuction) {
   const Vec3 z(1, 2, 3);
   const WetMoments m = wet_moments(z, 0.0, false);
-  EXPECT_NEAR(m.depth(z, 0.0).sum(), -0.5 * 2.0, 1e-15);   // area * mean depth
+  EXPECT_NEAR(m.depth(z, 0.0).sum(), -0.5 * 2.0, 1e-15);  // area * mean depth
 }
 
 TEST(WetTriangle, AreaDerivativeMatchesDifferences) {

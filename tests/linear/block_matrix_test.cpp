@@ -3,9 +3,9 @@
 
 #include <random>
 
+#include <gtest/gtest.h>
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
-#include <gtest/gtest.h>
 
 #include "brainshift/error.hpp"
 #include "linear/matrices.hpp"
@@ -32,8 +32,9 @@ TEST(BlockMatrix, ScalarColumnsAreWhatSparseSolversRead) {
       K.values().data());
   const Eigen::MatrixXd lower = Eigen::MatrixXd(sparse).triangularView<Eigen::Lower>();
   EXPECT_EQ((lower - Eigen::MatrixXd(random.dense.triangularView<Eigen::Lower>())).norm(), 0.0);
-  for (Index j = 0; j < 27; ++j) {   // rows ascend within a column
-    for (int k = K.scalar_columns()[std::size_t(j)] + 1; k < K.scalar_columns()[std::size_t(j) + 1]; ++k) {
+  for (Index j = 0; j < 27; ++j) {  // rows ascend within a column
+    for (int k = K.scalar_columns()[std::size_t(j)] + 1; k < K.scalar_columns()[std::size_t(j) + 1];
+         ++k) {
       EXPECT_LT(K.scalar_rows()[std::size_t(k) - 1], K.scalar_rows()[std::size_t(k)]);
     }
   }
@@ -42,7 +43,7 @@ TEST(BlockMatrix, ScalarColumnsAreWhatSparseSolversRead) {
 TEST(BlockMatrix, MultipliesAsTheSymmetricMatrixItStandsFor) {
   const test::RandomMatrix random(12, 2);
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(36, -1.0, 2.0);
-  Eigen::VectorXd y = Eigen::VectorXd::Constant(5, 99.0);   // whatever was there
+  Eigen::VectorXd y = Eigen::VectorXd::Constant(5, 99.0);  // whatever was there
   random.blocks.multiply(x, y);
   EXPECT_LT((y - random.dense * x).norm(), 1e-13 * y.norm());
 }

@@ -61,7 +61,8 @@ TEST(Ordering, LeavesTheHostsRandomNumbersAsTheyWere) {
 }
 
 TEST(Ordering, LeavesTheHostsSignalHandlersAsTheyWere) {
-  struct sigaction mine {}, before_abort, before_term, now;
+  struct sigaction mine {
+  }, before_abort, before_term, now;
   mine.sa_handler = on_signal;
   sigaction(SIGABRT, &mine, &before_abort);
   sigaction(SIGTERM, &mine, &before_term);
@@ -78,7 +79,8 @@ TEST(Ordering, SavesFillOnAGrid) {
     const std::size_t n = near.size();
     std::vector<std::vector<bool>> linked(n, std::vector<bool>(n, false));
     for (std::size_t i = 0; i < n; ++i) {
-      for (Index k : near[i]) linked[std::size_t(position[i])][std::size_t(position[std::size_t(k)])] = true;
+      for (Index k : near[i])
+        linked[std::size_t(position[i])][std::size_t(position[std::size_t(k)])] = true;
     }
     std::size_t count = 0;
     for (std::size_t p = 0; p < n; ++p) {

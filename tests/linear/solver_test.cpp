@@ -53,7 +53,7 @@ TEST(SpdSolver, ANumberThatIsNoneIsNotPositiveDefinite) {
   m.blocks.add_at(7, 7, Mat3::Constant(std::numeric_limits<double>::quiet_NaN()));
   const auto solver = make_spd_solver();
   solver->analyse(m.blocks);
-  if (solver->factorise(m.blocks)) {   // then at least the answer must not look like one
+  if (solver->factorise(m.blocks)) {  // then at least the answer must not look like one
     Eigen::MatrixXd x = Eigen::MatrixXd::Ones(60, 1);
     solver->solve(x);
     EXPECT_FALSE(x.allFinite());

@@ -52,8 +52,9 @@ TEST(Failures, ABodyHeldAlongALineTurnsAboutIt) {
 
 TEST(Failures, TheSecondBodyIsNamedWhenItIsLoose) {
   Scene scene = block();
-  scene.mesh = test::make_mesh(test::joined(test::make_box({20, 20, 20}, 2, 2, 2),
-                                            test::moved(test::make_box({20, 20, 20}, 2, 2, 2), {30, 0, 0})));
+  scene.mesh =
+      test::make_mesh(test::joined(test::make_box({20, 20, 20}, 2, 2, 2),
+                                   test::moved(test::make_box({20, 20, 20}, 2, 2, 2), {30, 0, 0})));
   scene.constraints.fix("base", test::nodes_where(scene.mesh, [](const Vec3& x) {
                           return x.z() == 0.0 && x.x() < 25.0;
                         }));
@@ -62,8 +63,9 @@ TEST(Failures, TheSecondBodyIsNamedWhenItIsLoose) {
 
 TEST(Failures, ATieHoldsTheSecondBody) {
   Scene scene = block();
-  scene.mesh = test::make_mesh(test::joined(test::make_box({20, 20, 20}, 2, 2, 2),
-                                            test::moved(test::make_box({20, 20, 20}, 2, 2, 2), {20, 0, 0})));
+  scene.mesh =
+      test::make_mesh(test::joined(test::make_box({20, 20, 20}, 2, 2, 2),
+                                   test::moved(test::make_box({20, 20, 20}, 2, 2, 2), {20, 0, 0})));
   scene.constraints.fix("base", test::nodes_where(scene.mesh, [](const Vec3& x) {
                           return x.z() == 0.0 && x.x() < 15.0;
                         }));
@@ -114,9 +116,11 @@ TEST(Failures, AConstraintOnANodeThatIsNotThere) {
 
 TEST(Failures, AnInitialPenetrationNamesTheNode) {
   Scene scene = block();
-  scene.constraints.fix("top", test::nodes_where(scene.mesh, [](const Vec3& x) { return x.z() == 20.0; }));
+  scene.constraints.fix("top",
+                        test::nodes_where(scene.mesh, [](const Vec3& x) { return x.z() == 20.0; }));
   const auto floor = test::moved(test::make_sheet(60, 60, 6, 6), {-20, -20, 0.5});
-  scene.constraints.obstacle("floor", bottom(scene.mesh), Surface::sheet(floor.points, floor.triangles));
+  scene.constraints.obstacle("floor", bottom(scene.mesh),
+                             Surface::sheet(floor.points, floor.triangles));
   expect_error(ErrorCode::initial_penetration, "node 0", [&] { Stepper s(scene); });
 }
 
@@ -172,9 +176,10 @@ TEST(Failures, AFailedRestoreLeavesTheState) {
   Stepper dry(scene);
   ASSERT_TRUE(dry.solve_static().converged());
   const Points u = dry.displacement();
-  scene.csf.emplace(test::fluid_density, FluidModel::separate,
-                    std::vector<Compartment>{test::make_compartment(
-                        "all", test::box_wall({-5, -5, -5}, {25, 25, 25}), test::all_faces(scene.mesh))});
+  scene.csf.emplace(
+      test::fluid_density, FluidModel::separate,
+      std::vector<Compartment>{test::make_compartment(
+          "all", test::box_wall({-5, -5, -5}, {25, 25, 25}), test::all_faces(scene.mesh))});
   Stepper wet(scene);
   EXPECT_THROW(wet.restore(dry.snapshot()), Error);
   EXPECT_THROW(dry.restore(wet.snapshot()), Error);
@@ -200,7 +205,8 @@ TEST(Failures, AFixedNodeThatTouchesAnObstacleStaysWhereItIs) {
   Scene scene = block();
   scene.constraints.fix("base", bottom(scene.mesh));
   const auto floor = test::moved(test::make_sheet(60, 60, 6, 6), {-20, -20, 1e-6});
-  scene.constraints.obstacle("floor", bottom(scene.mesh), Surface::sheet(floor.points, floor.triangles));
+  scene.constraints.obstacle("floor", bottom(scene.mesh),
+                             Surface::sheet(floor.points, floor.triangles));
   Stepper stepper(scene);
   const SolveReport report = stepper.solve_static();
   EXPECT_TRUE(report.converged()) << report.message;
@@ -214,7 +220,8 @@ TEST(Failures, AnOverturnedBlockThatContactCannotHoldSaysSo) {
   Scene scene = block();
   scene.gravity = Vec3(0, 0, standard_gravity);
   const auto floor = test::moved(test::make_sheet(60, 60, 6, 6), {-20, -20, 0});
-  scene.constraints.obstacle("floor", bottom(scene.mesh), Surface::sheet(floor.points, floor.triangles));
+  scene.constraints.obstacle("floor", bottom(scene.mesh),
+                             Surface::sheet(floor.points, floor.triangles));
   Stepper stepper(scene);
   SolveReport report;
   try {

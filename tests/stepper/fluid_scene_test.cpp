@@ -9,15 +9,16 @@ namespace {
 // A ball in a spherical cavity full of fluid, held by soft springs at its surface.
 Scene ball_in_fluid(Law law, bool balanced, FluidModel model = FluidModel::separate) {
   const Mesh mesh = test::make_mesh(test::make_ball(30.0, 6));
-  Scene scene{mesh,
-              {{0, Material(law, 6.0, 0.45, test::tissue_density)}},
-              Vec3(0, 0, -standard_gravity),
-              Csf(test::fluid_density, model,
-                  {test::make_compartment("all", test::make_icosphere(36.0, 3),
-                                          test::all_faces(mesh))}),
-              {}};
+  Scene scene{
+      mesh,
+      {{0, Material(law, 6.0, 0.45, test::tissue_density)}},
+      Vec3(0, 0, -standard_gravity),
+      Csf(test::fluid_density, model,
+          {test::make_compartment("all", test::make_icosphere(36.0, 3), test::all_faces(mesh))}),
+      {}};
   scene.balanced_reference = balanced;
-  scene.constraints.fix("stem", test::nodes_where(mesh, [](const Vec3& x) { return x.z() < -24.0; }));
+  scene.constraints.fix("stem",
+                        test::nodes_where(mesh, [](const Vec3& x) { return x.z() < -24.0; }));
   return scene;
 }
 
@@ -32,13 +33,14 @@ TEST(BalancedScene, HasNoLoadAtFullAndDoesNotMove) {
 }
 
 TEST(BalancedScene, LosingFluidMovesTheTissueAndRestoringItBringsItBack) {
-  for (Law law : {Law::linear, Law::corotational, Law::st_venant_kirchhoff, Law::stable_neo_hookean}) {
+  for (Law law :
+       {Law::linear, Law::corotational, Law::st_venant_kirchhoff, Law::stable_neo_hookean}) {
     Stepper stepper(ball_in_fluid(law, true));
-    stepper.csf().set_lost_volume(0, 5000.0);   // 5 mL
+    stepper.csf().set_lost_volume(0, 5000.0);  // 5 mL
     SolveReport report = stepper.solve_static();
     ASSERT_TRUE(report.converged()) << to_string(law) << ": " << report.message;
     EXPECT_GT(stepper.displacement().rowwise().norm().maxCoeff(), 1e-3);
-    EXPECT_NEAR(stepper.compartment(0).lost_volume, 5000.0, 1e-3);   // 1e-6 mL
+    EXPECT_NEAR(stepper.compartment(0).lost_volume, 5000.0, 1e-3);  // 1e-6 mL
     stepper.csf().set_full(0);
     report = stepper.solve_static();
     ASSERT_TRUE(report.converged()) << to_string(law) << ": " << report.message;
@@ -71,7 +73,7 @@ TEST(FluidScene, LevelAndVolumeAreInverseAtEquilibrium) {
     }
     const SolveReport report = by_volume.solve_static();
     ASSERT_TRUE(report.converged()) << report.message;
-    EXPECT_NEAR(by_volume.compartment(0).lost_volume, at.lost_volume, 1e-3);   // 1e-6 mL
+    EXPECT_NEAR(by_volume.compartment(0).lost_volume, at.lost_volume, 1e-3);  // 1e-6 mL
     EXPECT_NEAR(by_volume.compartment(0).air_volume, at.air_volume, 1e-3);
     EXPECT_NEAR(by_volume.compartment(0).head, 12.0, 1e-6);
     EXPECT_LE(test::largest_distance(by_volume.displacement(), by_level.displacement()), 1e-6);
@@ -79,7 +81,8 @@ TEST(FluidScene, LevelAndVolumeAreInverseAtEquilibrium) {
 }
 
 TEST(FluidScene, AStageSplitInTwoEndsAtTheSameState) {
-  Stepper once(ball_in_fluid(Law::corotational, true)), twice(ball_in_fluid(Law::corotational, true));
+  Stepper once(ball_in_fluid(Law::corotational, true)),
+      twice(ball_in_fluid(Law::corotational, true));
   once.csf().set_lost_volume(0, 30000.0);
   ASSERT_TRUE(once.solve_static().converged());
   for (double part : {12000.0, 30000.0}) {
@@ -116,8 +119,9 @@ TEST(FluidScene, AFreeSceneCarriesWeightLessBuoyancy) {
   const SolveReport report = stepper.solve_static();
   ASSERT_TRUE(report.converged()) << report.message;
   const Vec3 load = stepper.external_force().colwise().sum().transpose();
-  const double expected = stepper.gravity_force().col(2).sum() +
-                          test::fluid_density * standard_gravity * stepper.compartment(0).tissue_volume;
+  const double expected =
+      stepper.gravity_force().col(2).sum() +
+      test::fluid_density * standard_gravity * stepper.compartment(0).tissue_volume;
   EXPECT_NEAR(load.z(), expected, 1e-9 * std::abs(stepper.gravity_force().col(2).sum()));
 }
 
@@ -141,7 +145,8 @@ double neutral_error(int cells) {
   scene.balanced_reference = false;
   // The six rigid modes, held where the closed form does not move: the middle, and nodes on axes.
   const auto at = [&](double x, double y, double z) {
-    return test::nodes_where(mesh, [=](const Vec3& p) { return (p - Vec3(x, y, z)).norm() < 1e-9; });
+    return test::nodes_where(mesh,
+                             [=](const Vec3& p) { return (p - Vec3(x, y, z)).norm() < 1e-9; });
   };
   scene.constraints.fix("middle", at(0, 0, 0));
   scene.constraints.fix("top", at(0, 0, 25), {true, true, false});

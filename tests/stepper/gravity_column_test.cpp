@@ -1,4 +1,4 @@
-// A column under its own weight, laterally confined: VERIFICATION of the solver from end to end
+// A column under its own weight, laterally confined: the solver from end to end
 // against closed forms. M = lambda + 2 mu, c = density g H / M; only M enters them.
 //
 // nu = 0.2: a confined Saint-Venant-Kirchhoff body also buckles in vertical shear, where
@@ -19,16 +19,19 @@ Scene column(Law law, double c, int layers) {
   const Material unit(law, young, poisson, 0.0);
   const double modulus = unit.lambda() + 2.0 * unit.mu();
   const double density = c * modulus / (standard_gravity * height);
-  Scene scene{mesh, {{0, Material(law, young, poisson, density)}}, Vec3(0, 0, -standard_gravity), {}, {}};
+  Scene scene{
+      mesh, {{0, Material(law, young, poisson, density)}}, Vec3(0, 0, -standard_gravity), {}, {}};
   scene.balanced_reference = false;
   scene.constraints.fix("no lateral motion", test::all_nodes(mesh), {true, true, false});
-  scene.constraints.fix("base", test::nodes_where(mesh, [](const Vec3& x) { return x.z() == 0.0; }));
+  scene.constraints.fix("base",
+                        test::nodes_where(mesh, [](const Vec3& x) { return x.z() == 0.0; }));
   return scene;
 }
 
 // Mean settlement of the top over the height.
 double tip(const Stepper& stepper) {
-  const Indices top = test::nodes_where(stepper.mesh(), [](const Vec3& x) { return x.z() == height; });
+  const Indices top =
+      test::nodes_where(stepper.mesh(), [](const Vec3& x) { return x.z() == height; });
   return test::mean_row(stepper.displacement(), top).z() / height;
 }
 
@@ -59,7 +62,7 @@ TEST(GravityColumn, StVenantKirchhoffSettlesByTheClosedForm) {
     ASSERT_TRUE(report.converged()) << c << ": " << report.message;
     EXPECT_NEAR(tip(stepper), settled, 2e-3 * std::abs(settled)) << c;
     EXPECT_LE(report.residual, 1e-8);
-    EXPECT_GT(report.smallest_jacobian, 0.57) << c;   // 1/sqrt(3) is the limit point
+    EXPECT_GT(report.smallest_jacobian, 0.57) << c;  // 1/sqrt(3) is the limit point
   }
 }
 
@@ -82,7 +85,7 @@ TEST(GravityColumn, BeyondTheLimitPointThereIsNoEquilibriumAndTheStateStays) {
   const SolveReport report = stepper.solve_static();
   EXPECT_EQ(report.status, Status::no_equilibrium) << to_string(report.status);
   EXPECT_FALSE(report.message.empty());
-  EXPECT_GT(report.load_factor, 0.85);   // 0.19245 / 0.20 = 0.96, less a coarse mesh's share
+  EXPECT_GT(report.load_factor, 0.85);  // 0.19245 / 0.20 = 0.96, less a coarse mesh's share
   EXPECT_LT(report.load_factor, 1.0);
   EXPECT_TRUE(test::same_bits(before, stepper.displacement()));
 }

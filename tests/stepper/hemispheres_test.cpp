@@ -20,8 +20,8 @@ constexpr int cells = 4;
 
 struct Head {
   Scene scene;
-  Indices left, right;                  // all nodes of a half
-  Indices medial_left, medial_right;    // node by node across the midline
+  Indices left, right;                // all nodes of a half
+  Indices medial_left, medial_right;  // node by node across the midline
 };
 
 struct Options {
@@ -55,13 +55,16 @@ Head make_head(const Options& o) {
              Vec3(0, 0, -standard_gravity),
              {},
              {}},
-            {}, {}, {}, {}};
+            {},
+            {},
+            {},
+            {}};
   for (Index i = 0; i < half; ++i) {
     head.left.push_back(i);
     head.right.push_back(i + half);
     if (mesh.nodes()(i, 0) == 0.0) {
       head.medial_left.push_back(i);
-      head.medial_right.push_back(i + half);   // same place: the mirror image of a box
+      head.medial_right.push_back(i + half);  // same place: the mirror image of a box
     }
   }
   // Lowest cells of the interface tied (the bridge), the rest of it one-sided.
@@ -86,11 +89,11 @@ Head make_head(const Options& o) {
           }));
   set.tie("bridge", tied_left, tied_right);
   Points normal = Points::Zero(Eigen::Index(free_left.size()), 3);
-  normal.col(0).setOnes();   // from left to right
+  normal.col(0).setOnes();  // from left to right
   set.opposing("midline", free_right, free_left, normal);
   if (o.falx) {
     const test::SurfaceShape flat = test::make_sheet(deep + 20, high, 10, 8);
-    Points p(flat.points.rows(), 3);   // normal +x
+    Points p(flat.points.rows(), 3);  // normal +x
     for (Eigen::Index i = 0; i < p.rows(); ++i) {
       p.row(i) << 0.0, flat.points(i, 0) - 10.0, flat.points(i, 1) + falx_edge;
     }
@@ -101,11 +104,12 @@ Head make_head(const Options& o) {
   if (o.contact) {
     const auto skull = test::box_wall({-side - margin, -margin, -margin},
                                       {side + margin, deep + margin, high + margin});
-    set.obstacle("skull", test::surface_nodes(mesh), Surface::cavity(skull.points, skull.triangles));
+    set.obstacle("skull", test::surface_nodes(mesh),
+                 Surface::cavity(skull.points, skull.triangles));
   }
   // Tissue goes on across the bridge; all else is wetted.
-  const Indices across = mesh.faces_within(test::nodes_where(
-      mesh, [](const Vec3& x) { return x.x() == 0.0 && x.z() <= bridge_top; }));
+  const Indices across = mesh.faces_within(
+      test::nodes_where(mesh, [](const Vec3& x) { return x.x() == 0.0 && x.z() <= bridge_top; }));
   const auto compartment = [&](const char* name, double low, double up, Index region) {
     Compartment c = test::make_compartment(
         name, test::box_wall({low, -margin, -margin}, {up, deep + margin, high + margin}),
@@ -237,7 +241,9 @@ TEST(Hemispheres, TiedNodesMoveTogether) {
   for (std::size_t k = 0; k < r.head.medial_left.size(); ++k) {
     if (r.stepper.mesh().nodes()(r.head.medial_left[k], 2) > bridge_top) continue;
     EXPECT_EQ((r.stepper.displacement().row(r.head.medial_left[k]) -
-               r.stepper.displacement().row(r.head.medial_right[k])).norm(), 0.0);
+               r.stepper.displacement().row(r.head.medial_right[k]))
+                  .norm(),
+              0.0);
   }
 }
 
@@ -262,7 +268,8 @@ TEST(Hemispheres, EqualLossOnBothSidesLeavesTheMidlineInPlace) {
   ASSERT_TRUE(stepper.solve_static().converged());
   const Index half = stepper.mesh().node_count() / 2;
   EXPECT_LE(test::largest_distance(mirrored(stepper.displacement().topRows(half)),
-                                   stepper.displacement().bottomRows(half)), 1e-6);
+                                   stepper.displacement().bottomRows(half)),
+            1e-6);
   EXPECT_NEAR(stepper.compartment(0).head, stepper.compartment(1).head, 1e-8);
 }
 
@@ -285,7 +292,8 @@ TEST(Hemispheres, AStageSplitInTwoEndsAtTheSameState) {
   Result twice({}, 1, 5000.0);
   twice.stepper.csf().set_lost_volume(1, 12000.0);
   ASSERT_TRUE(twice.stepper.solve_static().converged());
-  EXPECT_LE(test::largest_distance(once.stepper.displacement(), twice.stepper.displacement()), 1e-6);
+  EXPECT_LE(test::largest_distance(once.stepper.displacement(), twice.stepper.displacement()),
+            1e-6);
 }
 
 TEST(Hemispheres, AirIsWhatWasLostLessTheSwellingOfTheTissue) {

@@ -14,18 +14,20 @@ namespace {
 struct Writing {
   double length = 1.0, mass = 1.0, time = 1.0;
   double angle = 0.0;
-  unsigned shuffle = 0;   // seed; 0: labels as they come
+  unsigned shuffle = 0;  // seed; 0: labels as they come
 };
 
 struct Written {
   Scene scene;
-  Indices label;   // of each node
+  Indices label;  // of each node
 };
 
 // A tissue block in a box of fluid, over a floor and before a wall, half of the fluid gone, tilted gravity.
 Written write(const Writing& w) {
   const auto rotation = Eigen::AngleAxisd(w.angle, Vec3::UnitZ()).toRotationMatrix();
-  const auto turned = [&](const Points& p) { return Points(w.length * (p * rotation.transpose())); };
+  const auto turned = [&](const Points& p) {
+    return Points(w.length * (p * rotation.transpose()));
+  };
   auto shape = test::make_box({30, 24, 30}, 3, 3, 3);
   const Index n = Index(shape.points.rows());
   Indices label(static_cast<std::size_t>(n));
@@ -36,7 +38,7 @@ Written write(const Writing& w) {
   for (Index i = 0; i < n; ++i) relabelled.points.row(label[std::size_t(i)]) = shape.points.row(i);
   for (Eigen::Index t = 0; t < shape.tets.rows(); ++t) {
     for (int a = 0; a < 4; ++a) {
-      const int b = w.shuffle && t % 2 ? (a < 3 ? (a + 1) % 3 : 3) : a;   // turned, same orientation
+      const int b = w.shuffle && t % 2 ? (a < 3 ? (a + 1) % 3 : 3) : a;  // turned, same orientation
       relabelled.tets(t, a) = label[std::size_t(shape.tets(t, b))];
     }
   }
@@ -50,16 +52,17 @@ Written write(const Writing& w) {
   const auto sheet = test::moved(test::make_sheet(90, 90, 9, 9), {-30, -30, 0});
   Points floor = sheet.points, behind = sheet.points;
   floor.col(2).array() -= 0.2;
-  for (Eigen::Index i = 0; i < behind.rows(); ++i) {   // x -> z, y -> x: its normal is +y
+  for (Eigen::Index i = 0; i < behind.rows(); ++i) {  // x -> z, y -> x: its normal is +y
     behind.row(i) << sheet.points(i, 1), -0.1, sheet.points(i, 0);
   }
-  Scene scene{mesh,
-              {{0, Material(Law::corotational, 6.0 * pressure, 0.45, test::tissue_density * density)}},
-              Vec3(rotation * Vec3(0, -0.4, -1.0)) * standard_gravity * w.length / (w.time * w.time),
-              Csf(test::fluid_density * density, FluidModel::separate,
-                  {test::make_compartment("all", {turned(wall.points), wall.triangles},
-                                          test::all_faces(mesh))}),
-              {}};
+  Scene scene{
+      mesh,
+      {{0, Material(Law::corotational, 6.0 * pressure, 0.45, test::tissue_density * density)}},
+      Vec3(rotation * Vec3(0, -0.4, -1.0)) * standard_gravity * w.length / (w.time * w.time),
+      Csf(test::fluid_density * density, FluidModel::separate,
+          {test::make_compartment("all", {turned(wall.points), wall.triangles},
+                                  test::all_faces(mesh))}),
+      {}};
   scene.csf->set_lost_volume(0, 8000.0 * w.length * w.length * w.length);
   SurfaceOptions grid;
   grid.grid_spacing *= w.length;
@@ -72,13 +75,14 @@ Written write(const Writing& w) {
   for (Index i = 0; i < n; ++i) {
     if (shape.points(i, 2) == 0.0) low.push_back(label[std::size_t(i)]);
   }
-  scene.constraints.support("stem", low, Eigen::VectorXd::Constant(1, 0.3 * w.mass / (w.time * w.time)));
+  scene.constraints.support("stem", low,
+                            Eigen::VectorXd::Constant(1, 0.3 * w.mass / (w.time * w.time)));
   scene.balanced_reference = true;
   return {scene, label};
 }
 
 struct Outcome {
-  Points u;   // of the nodes as first labelled, mm, in unrotated axes
+  Points u;  // of the nodes as first labelled, mm, in unrotated axes
   SolveReport report;
 };
 

@@ -22,7 +22,8 @@ Scene busy_scene() {
   const auto wall = test::box_wall({-0.5, -0.5, -0.2}, {30.5, 30.5, 30.5});
   scene.constraints.obstacle("skull", test::surface_nodes(mesh),
                              Surface::cavity(wall.points, wall.triangles));
-  scene.constraints.support("stem", test::nodes_where(mesh, [](const Vec3& x) { return x.z() == 0.0; }),
+  scene.constraints.support("stem",
+                            test::nodes_where(mesh, [](const Vec3& x) { return x.z() == 0.0; }),
                             Eigen::VectorXd::Constant(1, 0.3));
   return scene;
 }
@@ -142,7 +143,8 @@ TEST(State, AFailedSolveLeavesNoTraceInTheNext) {
 }
 
 TEST(State, TheCertificateHoldsForEveryLaw) {
-  for (Law law : {Law::linear, Law::corotational, Law::st_venant_kirchhoff, Law::stable_neo_hookean}) {
+  for (Law law :
+       {Law::linear, Law::corotational, Law::st_venant_kirchhoff, Law::stable_neo_hookean}) {
     Scene scene = busy_scene();
     scene.materials = {{0, Material(law, 6.0, 0.45, test::tissue_density)}};
     Stepper stepper(scene);
@@ -158,14 +160,14 @@ TEST(State, TheCertificateHoldsForEveryLaw) {
     EXPECT_EQ(r.load_factor, 1.0);
     EXPECT_GE(r.factorisations, 1);
     // The residual again, from the public forces alone: contact, springs in internal_force.
-    const Points rest =
-        stepper.external_force() - stepper.internal_force() + [&] {
-          Points contact = Points::Zero(stepper.mesh().node_count(), 3);
-          const ContactState c = stepper.contact(0);
-          const Indices& nodes = scene.constraints.group(0).nodes;
-          for (std::size_t i = 0; i < nodes.size(); ++i) contact.row(nodes[i]) += c.force.row(Eigen::Index(i));
-          return contact;
-        }();
+    const Points rest = stepper.external_force() - stepper.internal_force() + [&] {
+      Points contact = Points::Zero(stepper.mesh().node_count(), 3);
+      const ContactState c = stepper.contact(0);
+      const Indices& nodes = scene.constraints.group(0).nodes;
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        contact.row(nodes[i]) += c.force.row(Eigen::Index(i));
+      return contact;
+    }();
     const double scale = std::max(stepper.external_force().cwiseAbs().maxCoeff(),
                                   stepper.internal_force().cwiseAbs().maxCoeff());
     EXPECT_LE(rest.cwiseAbs().maxCoeff(), 2e-8 * scale) << to_string(law);

@@ -12,8 +12,8 @@
 
 namespace brainshift::test {
 
-constexpr double tissue_density = 1.04e-6;   // kg/mm^3
-constexpr double fluid_density = 1.0e-6;     // kg/mm^3
+constexpr double tissue_density = 1.04e-6;  // kg/mm^3
+constexpr double fluid_density = 1.0e-6;    // kg/mm^3
 
 inline Mesh make_mesh(const TetShape& shape, Indices regions = {}) {
   return Mesh(shape.points, shape.tets, std::move(regions));

@@ -5,15 +5,16 @@
 #include <numeric>
 #include <random>
 
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include "support/scenes.hpp"
 
 namespace brainshift {
 namespace {
 
-const Law laws[] = {Law::linear, Law::corotational, Law::st_venant_kirchhoff, Law::stable_neo_hookean};
+const Law laws[] = {Law::linear, Law::corotational, Law::st_venant_kirchhoff,
+                    Law::stable_neo_hookean};
 
 // A cube of irregular tets: inner nodes moved by up to a fifth of an edge, two regions.
 Mesh irregular_cube(double size = 10.0, int cells = 3) {
@@ -69,7 +70,7 @@ Eigen::MatrixXd dense(const BlockMatrix& K) {
 
 TEST(Tissue, ForceIsTheGradientOfTheEnergy) {
   const Mesh mesh = irregular_cube(10.0, 2);
-  const double h = 1e-6 * 5.0;   // of an edge
+  const double h = 1e-6 * 5.0;  // of an edge
   for (Law law : laws) {
     const Tissue tissue(mesh, two_materials(law));
     const Points u = random_motion(mesh, 0.5), f = force_at(tissue, u);
@@ -77,9 +78,10 @@ TEST(Tissue, ForceIsTheGradientOfTheEnergy) {
       Points plus = u, minus = u;
       plus.data()[j] += h;
       minus.data()[j] -= h;
-      // rel. 1e-6 of the largest entry (VERIFICATION of derivatives)
+      // rel. 1e-6 of the largest entry
       EXPECT_NEAR((tissue.energy(plus) - tissue.energy(minus)) / (2 * h), f.data()[j],
-                  1e-6 * f.cwiseAbs().maxCoeff()) << to_string(law);
+                  1e-6 * f.cwiseAbs().maxCoeff())
+          << to_string(law);
     }
   }
 }
@@ -164,7 +166,8 @@ TEST(PatchTest, AnAffineMotionGivesConstantStressAndNoForceInside) {
       EXPECT_LE(f.row(i).norm(), 1e-12 * scale) << to_string(law);
     }
     const Mat3 virial = f.transpose() * mesh.nodes() / mesh.volume();
-    EXPECT_LE((virial - P).cwiseAbs().maxCoeff(), 1e-12 * P.cwiseAbs().maxCoeff()) << to_string(law);
+    EXPECT_LE((virial - P).cwiseAbs().maxCoeff(), 1e-12 * P.cwiseAbs().maxCoeff())
+        << to_string(law);
     EXPECT_NEAR(tissue.energy(u), mesh.volume() * Material(law, 6.0, 0.45, 0.0).energy(G),
                 1e-12 * tissue.energy(u));
   }
@@ -200,7 +203,8 @@ TEST(Tissue, TinyDisplacementsKeepTheirDigits) {
   for (Law law : laws) {
     const Tissue tissue(mesh, two_materials(law));
     const Points u = random_motion(mesh, 1.0);
-    const Points tiny = force_at(tissue, 1e-12 * u) * 1e12, small = force_at(tissue, 1e-9 * u) * 1e9;
+    const Points tiny = force_at(tissue, 1e-12 * u) * 1e12,
+                 small = force_at(tissue, 1e-9 * u) * 1e9;
     EXPECT_LE((tiny - small).cwiseAbs().maxCoeff(), 1e-7 * small.cwiseAbs().maxCoeff())
         << to_string(law);
   }
@@ -220,7 +224,7 @@ TEST(Tissue, RelabellingNodesAndTurningTetsChangesNothing) {
   }
   Tets tets(mesh.tet_count(), 4);
   for (Index t = 0; t < mesh.tet_count(); ++t) {
-    const int turn[4] = {1, 2, 0, 3};   // an even permutation keeps the orientation
+    const int turn[4] = {1, 2, 0, 3};  // an even permutation keeps the orientation
     for (int a = 0; a < 4; ++a) {
       tets(t, a) = to[std::size_t(mesh.tets()(t, t % 2 ? turn[a] : a))];
     }
@@ -231,7 +235,8 @@ TEST(Tissue, RelabellingNodesAndTurningTetsChangesNothing) {
     EXPECT_NEAR(a.energy(u0), b.energy(u), 1e-13 * a.energy(u0));
     const Points fa = force_at(a, u0), fb = force_at(b, u);
     for (Index i = 0; i < n; ++i) {
-      EXPECT_LE((fa.row(i) - fb.row(to[std::size_t(i)])).norm(), 1e-13 * fa.cwiseAbs().maxCoeff() * 8)
+      EXPECT_LE((fa.row(i) - fb.row(to[std::size_t(i)])).norm(),
+                1e-13 * fa.cwiseAbs().maxCoeff() * 8)
           << to_string(law);
     }
   }

@@ -16,14 +16,19 @@ double stretch(Law law) {
   // (mu s = 2.001 against p = 2) and shows any unevenness 300 times larger.
   const double head = 1e9;
   const double density = p / (standard_gravity * head);
-  Scene scene{mesh, {{0, material}}, Vec3(0, 0, -standard_gravity),
+  Scene scene{mesh,
+              {{0, material}},
+              Vec3(0, 0, -standard_gravity),
               Csf(density, FluidModel::separate,
                   {test::make_compartment("all", test::box_wall({-2, -2, -2}, {3, 3, 3}),
-                                          test::all_faces(mesh))}, head), {}};
+                                          test::all_faces(mesh))},
+                  head),
+              {}};
   scene.balanced_reference = false;
   for (int axis = 0; axis < 3; ++axis) {
     std::array<bool, 3> axes{axis == 0, axis == 1, axis == 2};
-    scene.constraints.fix("plane", test::nodes_where(mesh, [axis](const Vec3& x) { return x[axis] == 0.0; }), axes);
+    scene.constraints.fix(
+        "plane", test::nodes_where(mesh, [axis](const Vec3& x) { return x[axis] == 0.0; }), axes);
   }
   Stepper stepper(scene);
   const SolveReport report = stepper.solve_static();

@@ -51,7 +51,7 @@ test::TetShape octant_shell(int n) {
 }
 
 struct Errors {
-  double inner, outer;   // relative, of the mean radial displacement
+  double inner, outer;  // relative, of the mean radial displacement
 };
 
 Errors solve(int n) {
@@ -68,15 +68,19 @@ Errors solve(int n) {
   c.wall_triangles = wall.triangles;
   c.wetted_faces = mesh.faces_within(
       test::nodes_where(mesh, [](const Vec3& x) { return std::abs(x.norm() - 1.0) < 1e-9; }));
-  Scene scene{mesh, {{0, Material(Law::linear, 1000.0, 0.3, 0.0)}}, Vec3(0, 0, -standard_gravity),
-              Csf(density, FluidModel::separate, {c}, head), {}};
+  Scene scene{mesh,
+              {{0, Material(Law::linear, 1000.0, 0.3, 0.0)}},
+              Vec3(0, 0, -standard_gravity),
+              Csf(density, FluidModel::separate, {c}, head),
+              {}};
   scene.balanced_reference = false;
   for (int axis = 0; axis < 3; ++axis) {
     std::array<bool, 3> axes{axis == 0, axis == 1, axis == 2};
-    scene.constraints.fix("plane", test::nodes_where(mesh, [axis](const Vec3& x) { return x[axis] == 0.0; }), axes);
+    scene.constraints.fix(
+        "plane", test::nodes_where(mesh, [axis](const Vec3& x) { return x[axis] == 0.0; }), axes);
   }
   StepperOptions options;
-  options.residual_tolerance = 1e-12;   // the load is small beside E L^2
+  options.residual_tolerance = 1e-12;  // the load is small beside E L^2
   Stepper stepper(scene, options);
   const SolveReport report = stepper.solve_static();
   EXPECT_TRUE(report.converged()) << report.message;

@@ -32,7 +32,8 @@ TEST_P(Uniaxial, MeetsTheClosedForm) {
   const double density = std::abs(bar.stress) / (5.0 * standard_gravity);
   const bool pressed = bar.stress < 0.0;
   Scene scene{mesh,
-              {{0, Material(bar.law, 1.0, bar.poisson, 0.0)}, {1, Material(Law::linear, stiff, 0.0, density)}},
+              {{0, Material(bar.law, 1.0, bar.poisson, 0.0)},
+               {1, Material(Law::linear, stiff, 0.0, density)}},
               Vec3(0, 0, pressed ? -standard_gravity : standard_gravity),
               {},
               {}};
@@ -74,7 +75,8 @@ TEST_P(Uniaxial, MeetsTheClosedForm) {
 
 INSTANTIATE_TEST_SUITE_P(
     Table, Uniaxial,
-    ::testing::Values(Bar{Law::linear, 0.45, 0.9, -0.1, 1.045}, Bar{Law::linear, 0.45, 1.1, 0.1, 0.955},
+    ::testing::Values(Bar{Law::linear, 0.45, 0.9, -0.1, 1.045},
+                      Bar{Law::linear, 0.45, 1.1, 0.1, 0.955},
                       Bar{Law::corotational, 0.45, 0.9, -0.1, 1.045},
                       Bar{Law::corotational, 0.45, 0.7, -0.3, 1.135},
                       Bar{Law::corotational, 0.45, 1.3, 0.3, 0.865},

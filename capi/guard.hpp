@@ -85,7 +85,10 @@ T& result(T* pointer, const char* what) {
 template <class T, class Made, class Body>
 brs_status create(T* handle, Made** made, const char* what, Body&& body) noexcept {
   if (made) *made = nullptr;
-  return guard(handle, [&](T& target) { result(made, what) = body(target); });
+  return guard(handle, [&](T& target) {
+    Made*& place = result(made, what);  // before the body makes what would then be lost
+    place = body(target);
+  });
 }
 
 template <class T>

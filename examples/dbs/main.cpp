@@ -26,12 +26,12 @@ int run(const dbs::Options& options) {
   // 3. The stages, one solve each.
   std::vector<StageResult> stages;
   std::vector<std::pair<double, std::string>> series;
-  if (options.files) std::filesystem::create_directories(options.out);
+  if (options.files) prepare_folder(options.out);
   print_table_header();
   for (const auto& [number, title] : procedure.plan()) {
     stages.push_back(procedure.run(number, title));
     print_stage(stages.back());
-    if (options.files) {
+    if (options.files && stages.back().report.converged()) {
       series.emplace_back(number, write_stage(options.out, head, procedure, number));
     }
     if (!stages.back().report.converged()) break;

@@ -29,7 +29,7 @@ nlohmann::json to_json(const StageResult& s) {
                             {"largest_surface_motion_mm", s.surface_motion[side]}};
   }
   const SolveReport& r = s.report;
-  return {{"stage", s.number}, {"title", s.title}, {"status", to_string(r.status)},
+  return {{"stage", s.number}, {"title", s.title}, {"status", to_string(r.status)}, {"message", r.message}, {"load_factor", r.load_factor},
           {"sides", sides}, {"brain_volume_lost_mL", ml(s.tissue_loss)},
           {"midline_shift_mm", s.midline_shift}, {"shift_mm", shifts},
           {"active_contacts", r.active_contacts}, {"largest_violation_mm", r.violation},
@@ -61,7 +61,7 @@ std::string csv(const std::vector<StageResult>& stages) {
          "smallest_jacobian,seconds\n";
   for (const StageResult& s : stages) {
     const SolveReport& r = s.report;
-    out << s.number << ',' << s.title << ',' << to_string(r.status) << ',' << s.fluid[left].head
+    out << s.number << ",\"" << s.title << "\"," << to_string(r.status) << ',' << s.fluid[left].head
         << ',' << s.fluid[right].head << ',' << ml(s.fluid[left].air_volume) << ','
         << ml(s.fluid[right].air_volume) << ',' << ml(s.tissue_loss) << ','
         << s.surface_motion[left] << ',' << s.surface_motion[right] << ',' << s.midline_shift;
@@ -129,6 +129,15 @@ void print_stage(const StageResult& s) {
               p.complementarity, p.smallest_jacobian, p.seconds);
   if (!p.converged()) std::printf("  %s: %s\n", to_string(p.status), p.message.c_str());
   std::fflush(stdout);
+}
+
+void prepare_folder(const std::string& folder) {
+  namespace fs = std::filesystem;
+  fs::create_directories(folder);
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("stage_", 0) == 0 || name.rfind("stages.", 0) == 0) fs::remove(entry.path());
+  }
 }
 
 void write_tables(const std::string& folder, const Head& head, const Options& o,

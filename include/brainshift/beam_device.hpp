@@ -66,8 +66,8 @@ class BeamDevice {
   const std::string& name() const;
   Index node_count() const;
   Index element_count() const;
-  const Points& nodes() const;                 // N x 3
-  const std::vector<Mat3>& frames() const;     // N
+  const Points& nodes() const;              // N x 3
+  const std::vector<Mat3>& frames() const;  // N
   const BeamSection& section(Index element) const;
   const std::vector<Contact>& contacts() const;  // from the tip outwards
 
@@ -89,7 +89,7 @@ struct DeviceData {
   const char* name;
   const char* description;  // with the sources of the numbers and what is assumed
   double outer_diameter;
-  double tip;               // from the tip to the first contact
+  double tip;  // from the tip to the first contact
   int contact_count;
   double contact_length, contact_gap;
   double bending;                          // EI, default

@@ -1,6 +1,7 @@
 // All of libbrainshift's C++ face.
 #pragma once
 
+#include "brainshift/beam_device.hpp"
 #include "brainshift/constraint_set.hpp"
 #include "brainshift/csf.hpp"
 #include "brainshift/error.hpp"

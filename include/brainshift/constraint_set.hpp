@@ -57,7 +57,7 @@ class ConstraintSet {
   void remove(ConstraintId id);
 
   const std::vector<ConstraintGroup>& groups() const { return m_groups; }
-  const ConstraintGroup& group(ConstraintId id) const;   // throws invalid_argument
+  const ConstraintGroup& group(ConstraintId id) const;  // throws invalid_argument
 
  private:
   ConstraintId add(ConstraintGroup group);
@@ -69,10 +69,10 @@ class ConstraintSet {
 
 // What a solve found for a group of one-sided rows, in the order of its nodes.
 struct ContactState {
-  Eigen::VectorXd gap;          // mm
-  Eigen::VectorXd multiplier;   // mN
-  Points force;                 // mN, on `nodes` (opposing: the partner feels the opposite)
-  Index active = 0;             // rows with a positive multiplier
+  Eigen::VectorXd gap;         // mm
+  Eigen::VectorXd multiplier;  // mN
+  Points force;                // mN, on `nodes` (opposing: the partner feels the opposite)
+  Index active = 0;            // rows with a positive multiplier
 };
 
 }  // namespace brainshift

@@ -14,8 +14,8 @@
 namespace brainshift {
 
 enum class FluidModel {
-  separate,       // each compartment has its own head; one that is not open stays full
-  communicating   // one head for all; compartments that are not open may be under suction
+  separate,      // each compartment has its own head; one that is not open stays full
+  communicating  // one head for all; compartments that are not open may be under suction
 };
 
 // What the host tells about one compartment.
@@ -50,9 +50,10 @@ class Csf {
   FluidModel model() const { return m_model; }
   double reference_head() const { return m_reference_head; }
   Index compartment_count() const { return Index(m_compartments.size()); }
-  const Compartment& compartment(Index i) const { return m_compartments.at(std::size_t(i)); }
-  Index find(const std::string& name) const;   // throws invalid_argument naming it
+  const Compartment& compartment(Index i) const { return m_compartments[checked(i)]; }
+  Index find(const std::string& name) const;  // throws invalid_argument naming it
 
+  // All that takes the number of a compartment throws index_out_of_range for one that is not there.
   // Settings; they take effect at the next solve. With FluidModel::communicating the law given to
   // any open compartment is that of the one fluid, and amounts count for all together.
   void open(Index compartment);                         // air may enter from now on
@@ -61,9 +62,9 @@ class Csf {
   void set_lost_volume(Index compartment, double mm3);  // >= 0; opens it
   void set_air_volume(Index compartment, double mm3);   // >= 0; opens it
 
-  bool is_open(Index compartment) const { return m_settings.at(std::size_t(compartment)).open; }
-  FluidLaw law(Index compartment) const { return m_settings.at(std::size_t(compartment)).law; }
-  double amount(Index compartment) const { return m_settings.at(std::size_t(compartment)).amount; }
+  bool is_open(Index compartment) const { return m_settings[checked(compartment)].open; }
+  FluidLaw law(Index compartment) const { return m_settings[checked(compartment)].law; }
+  double amount(Index compartment) const { return m_settings[checked(compartment)].amount; }
 
  private:
   struct Setting {
@@ -71,6 +72,7 @@ class Csf {
     FluidLaw law = FluidLaw::full;
     double amount = 0.0;
   };
+  std::size_t checked(Index compartment) const;
   void set(Index compartment, FluidLaw law, double amount);
 
   double m_density;

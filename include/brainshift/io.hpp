@@ -13,17 +13,17 @@ namespace brainshift::io {
 // A named array over nodes or cells: values is rows x components.
 struct Field {
   std::string name;
-  Eigen::MatrixXd values;   // reals; integers read from a file are held exactly up to 2^53
-  bool integer = false;     // written as Int32; a value that is none is refused
+  Eigen::MatrixXd values;  // reals; integers read from a file are held exactly up to 2^53
+  bool integer = false;    // written as Int32; a value that is none is refused
 };
 
 struct Grid {
-  Points points;                // mm
-  Tets tets;                    // VTU: linear tets
-  Triangles triangles;          // VTP: triangles
+  Points points;        // mm
+  Tets tets;            // VTU: linear tets
+  Triangles triangles;  // VTP: triangles
   std::vector<Field> node_fields;
   std::vector<Field> cell_fields;
-  const Field& node_field(const std::string& name) const;   // throws Error(file) naming it
+  const Field& node_field(const std::string& name) const;  // throws Error(file) naming it
   const Field& cell_field(const std::string& name) const;
 };
 
@@ -31,8 +31,8 @@ struct Grid {
 // infinity are refused in reading and in writing. The readers take ascii, binary and appended
 // arrays, with and without zlib, of every number type of VTK. Writers write zlib-compressed binary
 // (Float64), and to a temporary beside the target and rename: an old file stays whole on failure.
-Grid read_vtu(const std::string& path);   // UnstructuredGrid of linear tets
-Grid read_vtp(const std::string& path);   // PolyData of triangles
+Grid read_vtu(const std::string& path);  // UnstructuredGrid of linear tets
+Grid read_vtp(const std::string& path);  // PolyData of triangles
 void write_vtu(const std::string& path, const Grid& grid);
 void write_vtp(const std::string& path, const Grid& grid);
 // A time series; entries: time (stage number) and file name relative to the .pvd.

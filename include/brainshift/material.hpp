@@ -9,10 +9,10 @@
 namespace brainshift {
 
 enum class Law {
-  linear,                // small strain, Hooke; exact only for small rotations
-  corotational,          // mu |F-R|^2 + lambda/2 tr(R^T F - I)^2, exact tangent
-  st_venant_kirchhoff,   // quadratic in Green's strain; limit point at stretch 1/sqrt(3)
-  stable_neo_hookean     // Smith, de Goes, Kim 2018, without the log term; defined at J <= 0
+  linear,               // small strain, Hooke; exact only for small rotations
+  corotational,         // mu |F-R|^2 + lambda/2 tr(R^T F - I)^2, exact tangent
+  st_venant_kirchhoff,  // quadratic in Green's strain; limit point at stretch 1/sqrt(3)
+  stable_neo_hookean    // Smith, de Goes, Kim 2018, without the log term; defined at J <= 0
 };
 
 const char* to_string(Law law);
@@ -37,8 +37,8 @@ class Material {
   double bulk() const { return m_young / (3.0 * (1.0 - 2.0 * m_poisson)); }
 
   // Response to a displacement gradient G = dU/dX (3 x 3), F = I + G.
-  double energy(const Mat3& gradient) const;                        // per rest volume, kPa
-  Mat3 stress(const Mat3& gradient) const;                          // first Piola-Kirchhoff P, kPa
+  double energy(const Mat3& gradient) const;  // per rest volume, kPa
+  Mat3 stress(const Mat3& gradient) const;    // first Piola-Kirchhoff P, kPa
   // dP/dF, 9 x 9, kPa; F and P as column-major vectors. `definite`: nearest positive semidefinite.
   Eigen::Matrix<double, 9, 9> tangent(const Mat3& gradient, bool definite = false) const;
 

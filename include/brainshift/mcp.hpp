@@ -13,18 +13,18 @@
 namespace brainshift {
 
 enum class McpMethod {
-  automatic,       // semismooth Newton, then pivoting where it does not converge
-  newton,          // semismooth Newton on the min function, with line search
-  pivoting,        // Lemke's complementary pivoting with covering vector of ones
-  gauss_seidel     // projected Gauss-Seidel: the baseline, not the method
+  automatic,    // semismooth Newton, then pivoting where it does not converge
+  newton,       // semismooth Newton on the min function, with line search
+  pivoting,     // Lemke's complementary pivoting with covering vector of ones
+  gauss_seidel  // projected Gauss-Seidel: the baseline, not the method
 };
 
 struct McpOptions {
   McpMethod method = McpMethod::automatic;
-  double tolerance = 1e-10;     // of McpReport::residual; 100 (1 + n) eps is the least that counts
-  int max_iterations = 100;     // Newton: linear solves
-  int max_pivots = 0;           // 0: 50 + 10 n, a box counting twice
-  int max_sweeps = 10000;       // Gauss-Seidel
+  double tolerance = 1e-10;  // of McpReport::residual; 100 (1 + n) eps is the least that counts
+  int max_iterations = 100;  // Newton: linear solves
+  int max_pivots = 0;        // 0: 50 + 10 n, a box counting twice
+  int max_sweeps = 10000;    // Gauss-Seidel
 };
 
 enum class McpStatus { solved, infeasible, not_converged };
@@ -36,13 +36,13 @@ struct McpReport {
   // 1e4 times the largest w at z = 0. No unit, and small forces count as much as large ones.
   // Computed from the z returned, whatever the method says.
   double residual = 0.0;
-  int iterations = 0;           // Newton iterations, pivots or sweeps; automatic: their sum
-  Index rank = 0;               // of the rows that ended strictly between their bounds
+  int iterations = 0;  // Newton iterations, pivots or sweeps; automatic: their sum
+  Index rank = 0;      // of the rows that ended strictly between their bounds
   // false: z is, or may be, one of many (dependent rows); w is unique all the same where M is
   // symmetric and semidefinite. Newton then returns z of least norm of sqrt(M_ii) z_i over the
   // rows between their bounds.
   bool unique = true;
-  Indices conflict;             // infeasible: rows proved (Farkas) to contradict; z is void
+  Indices conflict;  // infeasible: rows proved (Farkas) to contradict; z is void
   std::string message;
 };
 

@@ -14,7 +14,7 @@ struct MeshOptions {
 
 // Where points lie in a mesh: the tet holding each point and its barycentric weights.
 struct Location {
-  Indices tet;                                                 // N; -1: outside the mesh
+  Indices tet;                                                        // N; -1: outside the mesh
   Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> weights;  // N x 4; zero rows outside
 };
 
@@ -29,22 +29,22 @@ class Mesh {
   Index tet_count() const;
   const Points& nodes() const;
   const Tets& tets() const;
-  const Indices& regions() const;      // M
-  Index reoriented() const;            // tets turned by MeshOptions::orient
+  const Indices& regions() const;  // M
+  Index reoriented() const;        // tets turned by MeshOptions::orient
 
-  double volume() const;               // mm^3
-  double volume(Index region) const;   // mm^3; 0 for a region that is not there
-  double diameter() const;             // mm; diagonal of the bounding box
+  double volume() const;              // mm^3
+  double volume(Index region) const;  // mm^3; 0 for a region that is not there
+  double diameter() const;            // mm; diagonal of the bounding box
 
   // Boundary faces, outward by the tet that owns them.
-  const Triangles& surface() const;         // F x 3 node indices
-  const Indices& surface_tets() const;      // F; the owning tet of each face
+  const Triangles& surface() const;     // F x 3 node indices
+  const Indices& surface_tets() const;  // F; the owning tet of each face
   // Rows of surface() owned by tets of `region`; rows all of whose nodes are in `nodes`.
   Indices faces_of_region(Index region) const;
   Indices faces_within(const Indices& nodes) const;
 
   // Connected component of each node (through shared nodes), numbered from 0; and their number.
-  const Indices& components() const;   // N
+  const Indices& components() const;  // N
   Index component_count() const;
 
   // Smallest dihedral angle of every tet, degrees.

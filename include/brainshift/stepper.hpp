@@ -13,6 +13,7 @@
 
 #include "brainshift/constraint_set.hpp"
 #include "brainshift/csf.hpp"
+#include "brainshift/insertion.hpp"
 #include "brainshift/material.hpp"
 #include "brainshift/mesh.hpp"
 #include "brainshift/types.hpp"
@@ -40,7 +41,7 @@ struct Progress {
 struct StepperOptions {
   double residual_tolerance = 1e-8;         // relative to the largest of the force norms
   double complementarity_tolerance = 1e-8;  // relative
-  double correction_tolerance = 1e-10;      // last correction relative to the mesh diameter
+  double correction_tolerance = 4e-11;      // last correction relative to the mesh diameter
   int max_iterations = 60;                  // Newton iterations per load step
   double smallest_load_step = 1.0 / 256.0;  // below it: no equilibrium
   double initial_penetration = 1e-6;        // accepted at the start, relative to the diameter
@@ -57,7 +58,8 @@ enum class Status {
 
 const char* to_string(Status status);
 
-// Certificate of a solve: measured on the state that is left behind.
+// Certificate of a solve: measured on the state that is left behind; of a solve that did not
+// converge (its state is given up), on its last iterate.
 struct SolveReport {
   Status status = Status::not_converged;
   double residual = 0.0;          // max-norm of unbalanced force / largest of the force norms
@@ -72,6 +74,8 @@ struct SolveReport {
   int factorisations = 0;
   int shifted_factorisations = 0; // those that needed a projected or shifted tangent
   Index active_contacts = 0;
+  double tie_gap = 0.0;           // mm; largest transverse gap between track and device
+  Index coupling_rows = 0;
   double seconds = 0.0, seconds_assembly = 0.0, seconds_factor = 0.0, seconds_line_search = 0.0;
   std::string message;            // one sentence; the hint when not converged
 
@@ -103,6 +107,19 @@ class Stepper {
   void set_gravity(const Vec3& gravity);
   void enable(ConstraintId id);
   void disable(ConstraintId id);
+
+  // Devices. Each call takes effect at once (nothing moves) and is balanced by the next solve.
+  // Inserts a straight, unloaded device: the tissue points that lie on its line now become its
+  // track and are held across it from then on; along it they slide. Throws Error(invalid_argument)
+  // when the tip is not in tissue or the line leaves it in between.
+  DeviceId insert(const BeamDevice& device, const Placement& placement, const Hold& hold = {},
+                  const TrackOptions& options = {});
+  // Another device on the same track, straight along the placement of the old one; that one must
+  // be held whole (Hold::rigid_from = 0).
+  void exchange(DeviceId id, const BeamDevice& device, const Hold& hold);
+  void set_hold(DeviceId id, const Hold& hold);
+  void remove(DeviceId id);
+  DeviceState device(DeviceId id) const;   // of the last good state; throws invalid_argument
 
   // Throws what solve_static() would throw for the present settings; changes nothing.
   void check_settings() const;

@@ -8,8 +8,8 @@
 namespace brainshift {
 
 struct SurfaceOptions {
-  double grid_spacing = 2.5;   // mm; edge of the distance grid: features below it are rounded off
-  double band = 25.0;          // mm; the distance is exact to the grid within this of the surface
+  double grid_spacing = 2.5;  // mm; edge of the distance grid: features below it are rounded off
+  double band = 25.0;         // mm; the distance is exact to the grid within this of the surface
 };
 
 // Signed distance to a triangulated surface, interpolated by tricubic B-splines on a grid, so that
@@ -29,12 +29,12 @@ class Surface {
   const Triangles& triangles() const;
 
   struct Sample {
-    double distance;   // mm
-    Vec3 gradient;     // unit length to the accuracy of the grid
-    Mat3 hessian;      // 1/mm
+    double distance;  // mm
+    Vec3 gradient;    // unit length to the accuracy of the grid
+    Mat3 hessian;     // 1/mm
   };
   Sample sample(const Vec3& point) const;
-  double distance(const Vec3& point) const;   // mm
+  double distance(const Vec3& point) const;  // mm
 
  private:
   struct Data;

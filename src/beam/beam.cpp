@@ -29,7 +29,8 @@ double Beam::energy(const BeamState& state) const {
   return sum;
 }
 
-double Beam::tangent(const BeamState& state, Eigen::VectorXd& gradient, BlockTridiagonal& K) const {
+double Beam::assemble(const BeamState& state, Eigen::VectorXd& gradient, BlockTridiagonal& K,
+                      std::vector<ElementForces>* forces) const {
   if (K.blocks() != node_count()) K = BlockTridiagonal(node_count());
   K.set_zero();
   gradient.setZero(dof_count());
@@ -37,11 +38,19 @@ double Beam::tangent(const BeamState& state, Eigen::VectorXd& gradient, BlockTri
   Vec12 g;
   Mat12 H;
   for (Index e = 0; e < element_count(); ++e) {
-    sum += element(e).gradient(pose(state, e), g, H);
+    const ElementPose at = pose(state, e);
+    sum += forces ? element(e).mixed_gradient(at, (*forces)[std::size_t(e)], g, H)
+                  : element(e).gradient(at, g, H);
     gradient.segment<12>(6 * e) += g;
     K.add_element(e, H);
   }
   return sum;
+}
+
+void Beam::predict(std::vector<ElementForces>& forces, const Eigen::VectorXd& step) const {
+  for (Index e = 0; e < element_count(); ++e) {
+    forces[std::size_t(e)].predict(step.segment<12>(6 * e));
+  }
 }
 
 void Beam::update(BeamState& state, const Eigen::VectorXd& step) const {
@@ -61,7 +70,9 @@ void Beam::update(BeamState& state, const Eigen::VectorXd& step) const {
     int& turns = state.turns[std::size_t(e)];
     turns = 0;
     const double seen = BeamElement::twist(pose(state, e));
-    turns = int(std::lround((expected[e] - seen) / full_turn));
+    const double missing = (expected[e] - seen) / full_turn;
+    // a section folded back by half a turn shows none or a full one: take none
+    turns = int(std::lround(missing - std::copysign(1e-6, missing)));
   }
 }
 

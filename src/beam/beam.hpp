@@ -15,8 +15,8 @@ namespace brainshift {
 
 // All that moves. A plain value: copies are snapshots, bit by bit.
 struct BeamState {
-  Points x;              // N x 3, mm
-  std::vector<Mat3> R;   // N; columns d1, d2, d3
+  Points x;                // N x 3, mm
+  std::vector<Mat3> R;     // N; columns d1, d2, d3
   std::vector<int> turns;  // per element
 };
 
@@ -36,8 +36,17 @@ class Beam {
   double energy(const BeamState& state) const;  // uJ
   // Returns the energy; gradient (minus the elastic force), 6N; K: its exact, symmetric derivative
   // along exp. At a node that carries an outer moment m (fixed in space), Newton's method on the
-  // balance gradient = load needs K + skew(m)/2 in the rotations of that node.
-  double tangent(const BeamState& state, Eigen::VectorXd& gradient, BlockTridiagonal& K) const;
+  // balance gradient = load needs K - skew(m)/2 in the rotations of that node.
+  double tangent(const BeamState& state, Eigen::VectorXd& gradient, BlockTridiagonal& K) const {
+    return assemble(state, gradient, K, nullptr);
+  }
+  // The same with the forces of the elements as unknowns of their own: see ElementForces.
+  double mixed_tangent(const BeamState& state, std::vector<ElementForces>& forces,
+                       Eigen::VectorXd& gradient, BlockTridiagonal& K) const {
+    return assemble(state, gradient, K, &forces);
+  }
+  // Call it with the Newton step that is about to be taken.
+  void predict(std::vector<ElementForces>& forces, const Eigen::VectorXd& step) const;
 
   // x <- x + dx, R <- exp(t) R; steps of any size, also many turns.
   void update(BeamState& state, const Eigen::VectorXd& step) const;
@@ -52,6 +61,8 @@ class Beam {
   }
 
  private:
+  double assemble(const BeamState& state, Eigen::VectorXd& gradient, BlockTridiagonal& K,
+                  std::vector<ElementForces>* forces) const;
   ElementPose pose(const BeamState& state, Index e) const {
     const auto i = std::size_t(e);
     return {state.x.row(e), state.x.row(e + 1), state.R[i], state.R[i + 1], state.turns[i]};

@@ -5,8 +5,8 @@
 
 #include "beam/element.hpp"
 #include "beam/rotation.hpp"
-#include "brainshift/error.hpp"
 #include "beam/text.hpp"
+#include "brainshift/error.hpp"
 
 namespace brainshift {
 
@@ -64,10 +64,9 @@ void check_nodes(const std::string& who, const Points& nodes) {
   const double least = 1e-10 * nodes.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i + 1 < nodes.rows(); ++i) {
     if ((nodes.row(i + 1) - nodes.row(i)).norm() <= least) {
-      throw Error(ErrorCode::degenerate_element, who + "element " + std::to_string(i) +
-                                                     " has no length: its nodes " +
-                                                     std::to_string(i) + " and " +
-                                                     std::to_string(i + 1) + " coincide");
+      throw Error(ErrorCode::degenerate_element,
+                  who + "element " + std::to_string(i) + " has no length: its nodes " +
+                      std::to_string(i) + " and " + std::to_string(i + 1) + " coincide");
     }
   }
 }
@@ -86,10 +85,9 @@ void check_frames(const std::string& who, const Points& nodes, const std::vector
     const Vec3 chord = nodes.row(i + 1) - nodes.row(i);
     for (const Eigen::Index end : {i, i + 1}) {
       if (chord.dot(frames[std::size_t(end)].col(0)) <= 0.0) {
-        throw Error(ErrorCode::invalid_argument, who + "the line turns by more than a right angle " +
-                                                     "between element " + std::to_string(i) +
-                                                     " and the frame of node " +
-                                                     std::to_string(end));
+        throw Error(ErrorCode::invalid_argument,
+                    who + "the line turns by more than a right angle " + "between element " +
+                        std::to_string(i) + " and the frame of node " + std::to_string(end));
       }
     }
   }
@@ -116,8 +114,9 @@ BeamSection tube_section(double outer, double inner, double young, double poisso
   if (!(outer > inner && inner >= 0.0 && young > 0.0 && poisson > -1.0 && density >= 0.0)) {
     throw Error(ErrorCode::invalid_argument,
                 "tube_section: needs outer > inner >= 0, young > 0, poisson > -1, density >= 0; "
-                "got " + text(outer) + ", " + text(inner) + ", " + text(young) + ", " +
-                    text(poisson) + ", " + text(density));
+                "got " +
+                    text(outer) + ", " + text(inner) + ", " + text(young) + ", " + text(poisson) +
+                    ", " + text(density));
   }
   const double area = 0.25 * pi * (outer * outer - inner * inner);
   BeamSection s;
@@ -145,9 +144,8 @@ BeamDevice::BeamDevice(std::string name, Points nodes, std::vector<BeamSection> 
   const auto count = std::size_t(nodes.rows()), elements = count - 1;
   if (sections.size() == 1) sections.resize(elements, sections.front());
   if (sections.size() != elements) {
-    throw Error(ErrorCode::size_mismatch, who + std::to_string(sections.size()) +
-                                              " sections for " + std::to_string(elements) +
-                                              " elements");
+    throw Error(ErrorCode::size_mismatch, who + std::to_string(sections.size()) + " sections for " +
+                                              std::to_string(elements) + " elements");
   }
   for (std::size_t e = 0; e < elements; ++e) {
     check_section(who + "section of element " + std::to_string(e) + ": ", sections[e]);

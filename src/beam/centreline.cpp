@@ -67,9 +67,7 @@ double golden_maximum(F&& f, double lo, double hi) {
 // (c - p) . c' = 0, kept inside the neighbouring samples by bisection.
 double closest_in_element(const Beam& beam, const BeamState& state, Index e, const Vec3& p) {
   constexpr int samples = 8;
-  const auto squared = [&](double t) {
-    return (position(beam, state, {e, t}) - p).squaredNorm();
-  };
+  const auto squared = [&](double t) { return (position(beam, state, {e, t}) - p).squaredNorm(); };
   int best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= samples; ++k) {
@@ -148,8 +146,8 @@ double curve_length(const Beam& beam, const BeamState& state, double from, doubl
 }
 
 ClosestBeamPoint closest_point(const Beam& beam, const BeamState& state, const Vec3& point) {
-  ClosestBeamPoint best{{0, 0.0}, Vec3::Zero(), std::numeric_limits<double>::infinity(),
-                        CurveEnd::none};
+  ClosestBeamPoint best{
+      {0, 0.0}, Vec3::Zero(), std::numeric_limits<double>::infinity(), CurveEnd::none};
   for (Index e = 0; e < beam.element_count(); ++e) {
     // the cubic lies within its control polygon: skip elements that cannot come closer
     const double nearest_end = (state.x.row(e).transpose() - point).norm();
@@ -189,7 +187,8 @@ Bow bow(const Beam& beam, const BeamState& state, double from, double to) {
     if (height(arc_at(k)) > height(arc_at(best))) best = k;
   }
   Bow result;
-  result.arc = golden_maximum(height, arc_at(std::max(0, best - 1)), arc_at(std::min(count, best + 1)));
+  result.arc =
+      golden_maximum(height, arc_at(std::max(0, best - 1)), arc_at(std::min(count, best + 1)));
   result.size = height(result.arc);
   const Vec3 d = offset(result.arc);
   result.direction = result.size > 0.0 ? Vec3(d / result.size) : Vec3(Vec3::Zero());

@@ -83,17 +83,17 @@ BeamDevice make_device(const std::string& name, double length, const DeviceOptio
   const double wanted = std::ceil(length / options.element_size * (1.0 - 1e-12));
   constexpr double most = 1e6;  // elements: beyond it the size was meant in another unit
   if (wanted > most) {
-    throw Error(ErrorCode::invalid_argument, "device '" + name + "': element_size = " +
-                                                 text(options.element_size) + " mm makes " +
-                                                 text(wanted) + " elements");
+    throw Error(ErrorCode::invalid_argument, "device '" + name +
+                                                 "': element_size = " + text(options.element_size) +
+                                                 " mm makes " + text(wanted) + " elements");
   }
   std::vector<Contact> contacts;
   for (int k = 0; k < data.contact_count; ++k) {
     const double from = data.tip + k * (data.contact_length + data.contact_gap);
     contacts.push_back({from, from + data.contact_length});
   }
-  return BeamDevice::straight(name, length, Index(std::max(1.0, wanted)),
-                              section_of(data, options), std::move(contacts));
+  return BeamDevice::straight(name, length, Index(std::max(1.0, wanted)), section_of(data, options),
+                              std::move(contacts));
 }
 
 }  // namespace brainshift

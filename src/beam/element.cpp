@@ -1,170 +1,10 @@
 #include "beam/element.hpp"
 
-#include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
-#include "beam/jet.hpp"
-#include "beam/rotation.hpp"
+#include "beam/element_measures.hpp"
 
 namespace brainshift {
-namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-// angle / sin(angle) as a function of c = cos(angle), which is smooth at c = 1; with derivatives.
-template <class T>
-T angle_per_sine(const T& c) {
-  const double x = value(c), d = 1.0 - x;
-  double f = 0.0, df = 0.0, ddf = 0.0;
-  if (d < 0.25) {
-    // sum over k of 2^k (k!)^2 / (2k+1)! d^k; ratio of terms -> d/2: 20 terms reach 1e-17
-    double a = 1.0, power[3] = {1.0, 0.0, 0.0};  // d^k, and its derivatives
-    for (int k = 0; k < 20; ++k) {
-      f += a * power[0], df -= a * power[1], ddf += a * power[2];
-      power[2] = power[2] * d + 2.0 * power[1];
-      power[1] = power[1] * d + power[0];
-      power[0] *= d;
-      a *= (k + 1.0) / (2.0 * k + 3.0);
-    }
-  } else {
-    // a section turned right round has no direction of bending: stop just short of it
-    const double y = std::max(x, -1.0 + 1e-9), s2 = 1.0 - y * y;
-    f = std::acos(y) / std::sqrt(s2);
-    df = (y * f - 1.0) / s2;
-    ddf = (f + 3.0 * y * df) / s2;
-  }
-  return chain(c, f, df, ddf);
-}
-
-// 1/(1 + c), kept finite where the section is turned right round.
-template <class T>
-T reciprocal_of_one_plus(const T& c) {
-  const double f = 1.0 / std::max(1.0 + value(c), 1e-9);
-  return chain(c, f, -f * f, 2.0 * f * f * f);
-}
-
-double sine(double a) { return std::sin(a); }
-double cosine(double a) { return std::cos(a); }
-template <int N>
-Jet<N> sine(const Jet<N>& a) {
-  const double s = std::sin(a.v);
-  return chain(a, s, std::cos(a.v), -s);
-}
-template <int N>
-Jet<N> cosine(const Jet<N>& a) {
-  const double c = std::cos(a.v);
-  return chain(a, c, -std::sin(a.v), -c);
-}
-
-// Angle whose cosine and sine (with c^2 + s^2 = 1 identically) are given.
-double angle_of(double c, double s) { return std::atan2(s, c); }
-template <int N>
-Jet<N> angle_of(const Jet<N>& c, const Jet<N>& s) {
-  Jet<N> angle(std::atan2(s.v, c.v));
-  angle.g = c.v * s.g - s.v * c.g;
-  angle.h = c.v * s.h - s.v * c.h;
-  return angle;
-}
-
-// Scalar products the measures are made of: value, or jet in (r, ta, tb), r = xb - xa.
-struct Plain {
-  using Scalar = double;
-  static double length(const Vec3& r) { return r.norm(); }
-  static double with_chord(const Vec3& r, const Vec3& d, int) { return r.dot(d); }
-  static double between(const Vec3& a, const Vec3& b) { return a.dot(b); }
-};
-
-using Jet9 = Jet<9>;
-struct Differentiated {
-  using Scalar = Jet9;
-  static Jet9 length(const Vec3& r) {
-    Jet9 l(r.norm());
-    const Vec3 e = r / l.v;
-    l.g.head<3>() = e;
-    l.h.topLeftCorner<3, 3>() = (Mat3::Identity() - e * e.transpose()) / l.v;
-    return l;
-  }
-  // Second derivative of exp(t) a . b with respect to t, at t = 0.
-  static Mat3 spin_hessian(const Vec3& a, const Vec3& b) {
-    const Mat3 ab = 0.5 * a * b.transpose();
-    return ab + ab.transpose() - a.dot(b) * Mat3::Identity();
-  }
-  // r . exp(t) d; the spin t is that of end a (first = 3) or b (first = 6).
-  static Jet9 with_chord(const Vec3& r, const Vec3& d, int first) {
-    Jet9 y(r.dot(d));
-    y.g.head<3>() = d;
-    y.g.segment<3>(first) = d.cross(r);
-    y.h.block<3, 3>(0, first) = skew(d).transpose();
-    y.h.block<3, 3>(first, 0) = skew(d);
-    y.h.block<3, 3>(first, first) = spin_hessian(d, r);
-    return y;
-  }
-  // exp(ta) a . exp(tb) b.
-  static Jet9 between(const Vec3& a, const Vec3& b) {
-    Jet9 y(a.dot(b));
-    y.g.segment<3>(3) = a.cross(b);
-    y.g.segment<3>(6) = b.cross(a);
-    y.h.block<3, 3>(3, 3) = y.h.block<3, 3>(6, 6) = spin_hessian(a, b);
-    y.h.block<3, 3>(3, 6) = y.v * Mat3::Identity() - b * a.transpose();
-    y.h.block<3, 3>(6, 3) = y.h.block<3, 3>(3, 6).transpose();
-    return y;
-  }
-};
-
-// Chord, angles from the normal of a and of b to the chord (along d2, d3 of each), twist.
-template <class T>
-struct Measures {
-  T chord, angles[4], twist;
-};
-
-template <class Rules>
-Measures<typename Rules::Scalar> measure(const ElementPose& pose) {
-  using T = typename Rules::Scalar;
-  const Vec3 r = pose.xb - pose.xa;
-  const Mat3 &A = pose.Ra, &B = pose.Rb;
-  Measures<T> m;
-  m.chord = Rules::length(r);
-  const T inverse = reciprocal(m.chord);
-  T pa[3], pb[3];  // unit chord along d1, d2, d3 of either section
-  for (int i = 0; i < 3; ++i) {
-    pa[i] = inverse * Rules::with_chord(r, A.col(i), 3);
-    pb[i] = inverse * Rules::with_chord(r, B.col(i), 6);
-  }
-  const T fa = angle_per_sine(pa[0]), fb = angle_per_sine(pb[0]);
-  for (int i = 0; i < 2; ++i) {
-    m.angles[i] = fa * pa[i + 1];
-    m.angles[2 + i] = fb * pb[i + 1];
-  }
-  // Twist: d2, d3 of a and d2 of b, each carried to the chord by the smallest rotation of its
-  // section; their scalar products are the cosine and sine.
-  const T ia = reciprocal_of_one_plus(pa[0]);
-  const T beta = reciprocal_of_one_plus(pb[0]) * pb[1];
-  const T sum = Rules::between(A.col(0), B.col(0)) + pa[0] + pb[0] + 1.0;
-  const T normal = Rules::between(A.col(0), B.col(1)) + pb[1] - beta * sum;
-  T product[2];
-  for (int i = 0; i < 2; ++i) {
-    product[i] = Rules::between(A.col(i + 1), B.col(1)) -
-                 beta * (Rules::between(A.col(i + 1), B.col(0)) + pa[i + 1]) -
-                 ia * pa[i + 1] * normal;
-  }
-  m.twist = angle_of(product[0], product[1]) + 2.0 * pi * pose.turns;
-  return m;
-}
-
-// Slopes of the sections against the chord (a2, a3, b2, b3), in the axes of the mean section: those
-// of a turned by half the twist, those of b turned back by as much.
-template <class T>
-void mean_axes(const T* angles, const T& twist, T* slopes) {
-  const T c = cosine(twist * 0.5), s = sine(twist * 0.5);
-  slopes[0] = (c * angles[0] + s * angles[1]) * -1.0;
-  slopes[1] = (c * angles[1] - s * angles[0]) * -1.0;
-  slopes[2] = (c * angles[2] - s * angles[3]) * -1.0;
-  slopes[3] = (c * angles[3] + s * angles[2]) * -1.0;
-}
-
-}  // namespace
 
 BeamElement::BeamElement(const BeamSection& section, const ElementPose& rest) : m_section(section) {
   const auto m = measure<Plain>(rest);
@@ -178,6 +18,10 @@ BeamElement::BeamElement(const BeamSection& section, const ElementPose& rest) : 
     shortening += b.mean_rest * b.mean_rest / 10.0 + b.difference_rest * b.difference_rest / 24.0;
   }
   m_chord_rest = m.chord;
+  m_shortening_rest = shortening;
+  m_seen_twist_rest = m.twist;
+  // beyond the rounding of a straight device that is turned
+  m_curved = std::hypot(m_bending[0].difference_rest, m_bending[1].difference_rest) > 1e-9;
   m_length = m.chord / (1.0 - shortening);
   const double stiffness[2] = {section.bending_2, section.bending_3};
   for (int i = 0; i < 2; ++i) {
@@ -186,6 +30,9 @@ BeamElement::BeamElement(const BeamSection& section, const ElementPose& rest) : 
     b.phi = 12.0 * stiffness[i] / (section.shear * m_length * m_length);  // 0 without shear
     b.mean = 12.0 * b.curvature / ((1.0 + b.phi) * (1.0 + b.phi));
   }
+  const double n2 = -m_bending[1].difference_rest, n3 = m_bending[0].difference_rest;
+  m_bubble = 0.5 / (12.0 * section.torsion / m_length + m_bending[0].curvature * n2 * n2 +
+                    m_bending[1].curvature * n3 * n3);
   m_twist_rest = m.twist + 0.5 * (m_bending[0].mean_rest * m_bending[1].difference_rest -
                                   m_bending[1].mean_rest * m_bending[0].difference_rest);
 }
@@ -195,29 +42,54 @@ BeamElement::BeamElement(const BeamSection& section, const ElementPose& rest) : 
 //   strain  = chord/L + sum (g_m^2/5 + d^2/12)/2 - gamma^2/2, against rest
 //   torsion = twist + (s_m x d)/2 + gamma x d, against rest
 //   gamma   = -phi/(1+phi) (s_m - rest)
+// Rest curvature turns with the sections: twisted by t more than at rest, an element has the rest
+// slopes d (1 - t^2/24) and s_m + t (d1 x d)/12.
 template <class T>
-T BeamElement::local_energy(const T& chord, const T* slopes, const T& twist) const {
-  T mean[2], difference[2], gamma[2];
-  T strain = (chord - m_chord_rest) * (1.0 / m_length);
-  const T stretch = chord * (1.0 / m_chord_rest), stretch2 = stretch * stretch;
+T BeamElement::local_energy(const T& chord, const T* slopes, const T& twist, T& strain) const {
+  T mean[2], difference[2], bent[2], gamma[2] = {0.0, 0.0};
+  strain = (chord - m_chord_rest) * (1.0 / m_length);
   T energy = 0.0;
+  const double rest_turned[2] = {-m_bending[1].difference_rest, m_bending[0].difference_rest};
   for (int i = 0; i < 2; ++i) {
     const Bending& b = m_bending[i];
     mean[i] = (slopes[i] + slopes[2 + i]) * 0.5;
     difference[i] = slopes[2 + i] - slopes[i];
-    const T bent = difference[i] - b.difference_rest, sheared = mean[i] - b.mean_rest;
-    gamma[i] = sheared * (-b.phi / (1.0 + b.phi));
-    const T g = mean[i] + gamma[i];
-    strain += g * g * 0.1 + difference[i] * difference[i] * (1.0 / 24.0) - gamma[i] * gamma[i] * 0.5;
-    strain = strain - (b.mean_rest * b.mean_rest / 10.0 +
-                       b.difference_rest * b.difference_rest / 24.0);
-    energy += bent * bent * (0.5 * b.curvature);
-    energy += sheared * sheared * (stretch2 * b.phi + 1.0) * (0.5 * b.mean);
+    bent[i] = difference[i] - b.difference_rest;
+    T sheared = mean[i] - b.mean_rest;
+    if (m_curved) {
+      bent[i] +=
+          (twist * twist - m_seen_twist_rest * m_seen_twist_rest) * (b.difference_rest / 24.0);
+      sheared -= (twist - m_seen_twist_rest) * (rest_turned[i] / 12.0);
+    }
+    T g = mean[i];
+    if (b.phi == 0.0) {
+      energy += sheared * sheared * (0.5 * b.mean);
+    } else {
+      const T stretch = chord * (1.0 / m_chord_rest);
+      gamma[i] = sheared * (-b.phi / (1.0 + b.phi));
+      g += gamma[i];
+      strain -= gamma[i] * gamma[i] * 0.5;
+      energy += sheared * sheared * (stretch * stretch * b.phi + 1.0) * (0.5 * b.mean);
+    }
+    strain += g * g * 0.1 + difference[i] * difference[i] * (1.0 / 24.0);
   }
+  strain = strain - m_shortening_rest;
   const T x = mean[0] * 0.5 + gamma[0], y = mean[1] * 0.5 + gamma[1];
   const T torsion = twist + x * difference[1] - y * difference[0] - m_twist_rest;
-  energy += strain * strain * (0.5 * m_section.axial * m_length);
   energy += torsion * torsion * (0.5 * m_section.torsion / m_length);
+  if (m_bending[0].phi > 0.0) {
+    // Section normals away from the chord by gamma: d is that much longer on the map of angles than
+    // on the sphere of directions. Small, but bending energy may be large beside that of shear.
+    const T across = gamma[0] * difference[1] - gamma[1] * difference[0];
+    bent[0] += across * gamma[1] * (1.0 / 6.0);
+    bent[1] -= across * gamma[0] * (1.0 / 6.0);
+  }
+  for (int i = 0; i < 2; ++i) energy += bent[i] * bent[i] * (0.5 * m_bending[i].curvature);
+  if (m_curved) {
+    const T torque = bent[0] * (m_bending[0].curvature * rest_turned[0]) +
+                     bent[1] * (m_bending[1].curvature * rest_turned[1]);
+    energy -= torque * torque * m_bubble;
+  }
   return energy;
 }
 
@@ -225,48 +97,71 @@ double BeamElement::energy(const ElementPose& pose) const {
   const auto m = measure<Plain>(pose);
   double slopes[4];
   mean_axes(m.angles, m.twist, slopes);
-  return local_energy(m.chord, slopes, m.twist);
+  double strain = 0.0;
+  const double rest = local_energy(m.chord, slopes, m.twist, strain);
+  return rest + 0.5 * m_section.axial * m_length * strain * strain;
 }
 
 double BeamElement::twist(const ElementPose& pose) { return measure<Plain>(pose).twist; }
 
-double BeamElement::gradient(const ElementPose& pose, Vec12& gradient, Mat12& hessian) const {
+namespace {
+
+// Gradient and Hessian in (r, ta, tb), r = xb - xa, to those in (xa, ta, xb, tb).
+Vec12 on_dofs(const Jet9::Gradient& g) {
+  Vec12 v;
+  v << -g.head<3>(), g.segment<3>(3), g.head<3>(), g.tail<3>();
+  return v;
+}
+
+void on_dofs(const Jet9::Hessian& H, Mat12& K) {
+  constexpr struct {
+    int to, from;
+    double sign;
+  } parts[] = {{0, 0, -1.0}, {3, 3, 1.0}, {6, 0, 1.0}, {9, 6, 1.0}};
+  for (const auto& i : parts) {
+    for (const auto& j : parts) {
+      K.block<3, 3>(i.to, j.to) = (i.sign * j.sign) * H.block<3, 3>(i.from, j.from);
+    }
+  }
+}
+
+}  // namespace
+
+double BeamElement::gradient_and_hessian(const ElementPose& pose, Vec12& gradient, Mat12& hessian,
+                                         ElementForces* forces) const {
   // Two levels, so that the long polynomial is differentiated in six variables instead of nine.
   const auto m = measure<Differentiated>(pose);
   const Jet9* outer[6] = {&m.chord,     &m.angles[0], &m.angles[1],
                           &m.angles[2], &m.angles[3], &m.twist};
-  Jet<6> inner[6], slopes[4];
+  Jet<6> inner[6], slopes[4], strain;
   for (int k = 0; k < 6; ++k) inner[k] = Jet<6>::variable(outer[k]->v, k);
   mean_axes(inner + 1, inner[5], slopes);
-  const Jet<6> energy = local_energy(inner[0], slopes, inner[5]);
+  const Jet<6> energy = local_energy(inner[0], slopes, inner[5], strain);
+  const double tension = m_section.axial * strain.v;
+  const double carried = forces ? forces->axial : tension;  // what the geometric stiffness sees
+  const Vec6 local_forces = energy.g + (m_length * tension) * strain.g;
+  const Vec6 carried_forces = forces ? forces->local : local_forces;
 
   Eigen::Matrix<double, 9, 6> B;
   Jet9::Hessian H = Jet9::Hessian::Zero();
   for (int k = 0; k < 6; ++k) {
     B.col(k) = outer[k]->g;
-    H += energy.g[k] * outer[k]->h;
+    H += carried_forces[k] * outer[k]->h;
   }
-  const Eigen::Matrix<double, 9, 6> BK = B * energy.h;
+  Jet<6>::Hessian local = energy.h + (m_length * carried) * strain.h;
+  local.noalias() += (m_length * m_section.axial * strain.g) * strain.g.transpose();
+  const Eigen::Matrix<double, 9, 6> BK = B * local;
   H.noalias() += BK * B.transpose();
-  const Jet9::Gradient g = B * energy.g;
 
-  // r = xb - xa; dofs xa, ta, xb, tb
-  gradient << -g.head<3>(), g.segment<3>(3), g.head<3>(), g.tail<3>();
-  hessian.block<3, 3>(3, 3) = H.block<3, 3>(3, 3);
-  hessian.block<3, 3>(3, 9) = H.block<3, 3>(3, 6);
-  hessian.block<3, 3>(9, 3) = H.block<3, 3>(6, 3);
-  hessian.block<3, 3>(9, 9) = H.block<3, 3>(6, 6);
-  for (const int i : {0, 6}) {
-    const double sign_i = i == 0 ? -1.0 : 1.0;
-    for (const int j : {0, 6}) {
-      hessian.block<3, 3>(i, j) = (i == j ? 1.0 : -1.0) * H.block<3, 3>(0, 0);
-    }
-    hessian.block<3, 3>(i, 3) = sign_i * H.block<3, 3>(0, 3);
-    hessian.block<3, 3>(i, 9) = sign_i * H.block<3, 3>(0, 6);
-    hessian.block<3, 3>(3, i) = sign_i * H.block<3, 3>(3, 0);
-    hessian.block<3, 3>(9, i) = sign_i * H.block<3, 3>(6, 0);
+  gradient = on_dofs(B * local_forces);
+  on_dofs(H, hessian);
+  if (forces) {
+    forces->axial = tension;
+    forces->axial_gradient = on_dofs(B * (m_section.axial * strain.g));
+    forces->local = local_forces;
+    for (int k = 0; k < 6; ++k) forces->local_gradient.row(k) = on_dofs(BK.col(k)).transpose();
   }
-  return energy.v;
+  return energy.v + 0.5 * m_length * tension * strain.v;
 }
 
 BeamResultants BeamElement::resultants(const ElementPose& pose) const {
@@ -277,7 +172,8 @@ BeamResultants BeamElement::resultants(const ElementPose& pose) const {
   inner[0] = Jet<6>::variable(m.chord, 0);
   for (int k = 0; k < 4; ++k) inner[k + 1] = Jet<6>::variable(start[k], k + 1);
   inner[5] = Jet<6>::variable(m.twist, 5);
-  const Jet<6> energy = local_energy(inner[0], inner + 1, inner[5]);
+  Jet<6> strain, energy = local_energy(inner[0], inner + 1, inner[5], strain);
+  energy.g += (m_section.axial * m_length * strain.v) * strain.g;
   return {energy.g[0], energy.g[5], {-energy.g[1], -energy.g[2]}, {energy.g[3], energy.g[4]}};
 }
 

@@ -12,6 +12,7 @@
 
 namespace brainshift {
 
+using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Vec12 = Eigen::Matrix<double, 12, 1>;
 
 // Where the two ends are. R: columns d1, d2, d3. `turns`: full turns of twist to be added to what
@@ -25,8 +26,26 @@ struct ElementPose {
 // What an element carries; the moments are those in the planes (d1, d2) and (d1, d3) of its mean
 // section, positive when they bend d1 towards d2 or d3 on the way from a to b.
 struct BeamResultants {
-  double axial, torque;           // mN, mN mm
+  double axial, torque;             // mN, mN mm
   double moment_a[2], moment_b[2];  // mN mm
+};
+
+// The forces of an element as unknowns of their own, for Newton's method. A device is so much stiffer
+// against stretching than against bending that the stretch left by one linear step would rule the
+// geometric stiffness of the next one; the forces the step itself predicts do not suffer from it.
+// Equilibria are the same, the iterations to them fewer by tens.
+struct ElementForces {
+  double axial = 0.0;         // mN
+  Vec6 local = Vec6::Zero();  // conjugate to chord, angles and twist: mN, mN mm
+  // Derivatives of both by the dofs; for the gradient to fill.
+  Vec12 axial_gradient = Vec12::Zero();
+  Eigen::Matrix<double, 6, 12> local_gradient = Eigen::Matrix<double, 6, 12>::Zero();
+
+  // From the forces at a pose to those after a step of the dofs, to first order.
+  void predict(const Vec12& step) {
+    axial += axial_gradient.dot(step);
+    local += local_gradient * step;
+  }
 };
 
 class BeamElement {
@@ -40,7 +59,15 @@ class BeamElement {
   double energy(const ElementPose& pose) const;  // uJ
   // Dofs: translation and spin of either end, (dxa, ta, dxb, tb) with R <- exp(t) R; the Hessian is
   // the second derivative along exp, hence symmetric everywhere.
-  double gradient(const ElementPose& pose, Vec12& gradient, Mat12& hessian) const;
+  double gradient(const ElementPose& pose, Vec12& gradient, Mat12& hessian) const {
+    return gradient_and_hessian(pose, gradient, hessian, nullptr);
+  }
+  // The same with the geometric stiffness of the given forces, which are then replaced by those of
+  // the pose, ready for predict().
+  double mixed_gradient(const ElementPose& pose, ElementForces& forces, Vec12& gradient,
+                        Mat12& hessian) const {
+    return gradient_and_hessian(pose, gradient, hessian, &forces);
+  }
 
   // Twist about the chord (rad), with the turns.
   static double twist(const ElementPose& pose);
@@ -55,11 +82,17 @@ class BeamElement {
     double phi;
     double mean_rest, difference_rest;  // of the slopes at the ends
   };
+  double gradient_and_hessian(const ElementPose& pose, Vec12& gradient, Mat12& hessian,
+                              ElementForces* forces) const;
+  // Energy without stretching, and the strain.
   template <class T>
-  T local_energy(const T& chord, const T* slopes, const T& twist) const;
+  T local_energy(const T& chord, const T* slopes, const T& twist, T& strain) const;
 
   BeamSection m_section;
   double m_length = 0.0, m_chord_rest = 0.0, m_twist_rest = 0.0;
+  double m_shortening_rest = 0.0, m_seen_twist_rest = 0.0;  // twist about the chord
+  double m_bubble = 0.0;
+  bool m_curved = false;  // at rest
   Bending m_bending[2];
 };
 

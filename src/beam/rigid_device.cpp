@@ -14,9 +14,10 @@ RigidDevice::RigidDevice(const Vec3& tip, const Vec3& direction, double length, 
     throw Error(ErrorCode::not_finite, "rigid device: tip, direction, length or radius not finite");
   }
   if (!(direction.norm() > 0.0) || !(length > 0.0) || !(radius > 0.0)) {
-    throw Error(ErrorCode::invalid_argument,
-                "rigid device: needs a direction, a positive length and a positive radius; got |d| = " +
-                    text(direction.norm()) + ", " + text(length) + ", " + text(radius));
+    throw Error(
+        ErrorCode::invalid_argument,
+        "rigid device: needs a direction, a positive length and a positive radius; got |d| = " +
+            text(direction.norm()) + ", " + text(length) + ", " + text(radius));
   }
   m_frame = any_frame(direction.normalized());
 }

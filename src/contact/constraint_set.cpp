@@ -10,9 +10,9 @@ namespace {
 
 void require_pairs(const std::string& name, const Indices& nodes, const Indices& partners) {
   if (nodes.size() != partners.size()) {
-    throw Error(ErrorCode::size_mismatch,
-                "constraint '" + name + "': " + std::to_string(nodes.size()) + " nodes and " +
-                    std::to_string(partners.size()) + " partners");
+    throw Error(ErrorCode::size_mismatch, "constraint '" + name +
+                                              "': " + std::to_string(nodes.size()) + " nodes and " +
+                                              std::to_string(partners.size()) + " partners");
   }
 }
 
@@ -95,8 +95,8 @@ ConstraintId ConstraintSet::opposing(std::string name, Indices nodes, Indices pa
                                      Points normals) {
   require_pairs(name, nodes, partners);
   if (normals.rows() != Eigen::Index(nodes.size())) {
-    throw Error(ErrorCode::size_mismatch, "constraint '" + name + "': " +
-                                              std::to_string(nodes.size()) + " nodes and " +
+    throw Error(ErrorCode::size_mismatch, "constraint '" + name +
+                                              "': " + std::to_string(nodes.size()) + " nodes and " +
                                               std::to_string(normals.rows()) + " normals");
   }
   for (Eigen::Index i = 0; i < normals.rows(); ++i) {

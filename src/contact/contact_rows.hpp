@@ -8,14 +8,14 @@
 namespace brainshift {
 
 struct ContactRow {
-  Index node;              // block of the first node in the reduced system
-  Index partner;           // block of the second node, or -1
-  std::size_t group, item; // where the row comes from
+  Index node;               // block of the first node in the reduced system
+  Index partner;            // block of the second node, or -1
+  std::size_t group, item;  // where the row comes from
 };
 
 struct GapSample {
-  double gap;     // mm
-  Vec3 normal;    // gradient with respect to the node; the partner's is its negative
+  double gap;   // mm
+  Vec3 normal;  // gradient with respect to the node; the partner's is its negative
 };
 
 class ContactRows {
@@ -40,7 +40,7 @@ class ContactRows {
     return (m_rest.row(node) + u.row(node)).transpose();
   }
 
-  std::vector<ConstraintGroup> m_groups;   // the enabled one-sided ones
+  std::vector<ConstraintGroup> m_groups;  // the enabled one-sided ones
   std::vector<ContactRow> m_rows;
   Points m_rest;
 };

@@ -89,9 +89,9 @@ void Reduction::add_row(NodeRow row, const Reduction* like) {
     const Block& here = m_blocks[std::size_t(row.block)];
     const Block& there = m_blocks[std::size_t(row.partner)];
     if (here.pair >= 0 || there.pair >= 0) return;
-    const bool turn =
-        like ? like->m_blocks[std::size_t(row.partner)].pair >= 0
-             : here.rest_of(row.normal, along).norm() < 0.5 * there.rest_of(row.normal, along).norm();
+    const bool turn = like ? like->m_blocks[std::size_t(row.partner)].pair >= 0
+                           : here.rest_of(row.normal, along).norm() <
+                                 0.5 * there.rest_of(row.normal, along).norm();
     if (turn) {
       std::swap(row.block, row.partner);
       row.normal = -row.normal;
@@ -117,8 +117,7 @@ void Reduction::add_row(NodeRow row, const Reduction* like) {
 }
 
 Mat3 Reduction::coupling(const Block& b) const {
-  return b.pair_response *
-         (b.pair_normal.transpose() * m_blocks[std::size_t(b.partner)].free());
+  return b.pair_response * (b.pair_normal.transpose() * m_blocks[std::size_t(b.partner)].free());
 }
 
 void Reduction::reduce(const BlockMatrix& K, double diagonal, BlockMatrix& A) const {

@@ -1,10 +1,11 @@
 // Elimination of bilateral and active one-sided rows of nodes from the stiffness matrix.
 //
-// Each block i of unknowns is written dx_i = Q_i y_i + T_i dx_partner + c_i, where the columns of Q_i
-// span the directions its rows leave free (in node-local axes, so that the pattern of the matrix,
-// and with it the symbolic factor, never changes), T_i carries an active pair row, and c_i is the
-// particular solution of the rows. The reduced matrix is A = T^T K T, positive definite where K is
-// on the admissible directions; steel or contact never enters it as a penalty.
+// Each block i of unknowns is written dx_i = Q_i y_i + T_i dx_partner + c_i, docs/theory.md (9).
+// The columns of Q_i span the directions its rows leave free (in node-local axes, so that the
+// pattern of the matrix, and with it the symbolic factor, never changes), T_i carries an active
+// pair row, and c_i is the particular solution of the rows. The reduced matrix is A = T^T K T,
+// positive definite where K is on the admissible directions; steel or contact never enters it as a
+// penalty.
 #pragma once
 
 #include <vector>
@@ -18,7 +19,7 @@ struct NodeRow {
   Index block, partner;
   Vec3 normal;
   double value;
-  std::size_t tag;   // the caller's name for the row
+  std::size_t tag;  // the caller's name for the row
 };
 
 class Reduction {
@@ -45,23 +46,23 @@ class Reduction {
 
  private:
   struct Block {
-    bool plain = true;                 // no row: Q = I
-    Mat3 q = Mat3::Identity();         // orthonormal; the first `held` columns are held by rows
-    Mat3 lower = Mat3::Zero();         // row k: normal_k = sum_j lower(k, j) q_j
+    bool plain = true;          // no row: Q = I
+    Mat3 q = Mat3::Identity();  // orthonormal; the first `held` columns are held by rows
+    Mat3 lower = Mat3::Zero();  // row k: normal_k = sum_j lower(k, j) q_j
     int held = 0;
     std::size_t tags[3] = {0, 0, 0};
-    int pair = -1;                     // which held row is a pair row
+    int pair = -1;  // which held row is a pair row
     Index partner = -1;
     Vec3 pair_normal = Vec3::Zero();
-    Vec3 pair_response = Vec3::Zero(); // motion of the block for a unit value of the pair row
-    Mat3 free() const;                 // q with the held columns zeroed
+    Vec3 pair_response = Vec3::Zero();  // motion of the block for a unit value of the pair row
+    Mat3 free() const;                  // q with the held columns zeroed
     Vec3 rest_of(const Vec3& normal, Vec3& along) const;
   };
   void add_row(NodeRow row, const Reduction* like);
   Mat3 coupling(const Block& b) const;  // T_i Q_partner: from y of the partner to dx of the block
 
   std::vector<Block> m_blocks;
-  std::vector<Vec3> m_values;   // right-hand sides of the held rows of each block
+  std::vector<Vec3> m_values;  // right-hand sides of the held rows of each block
   Eigen::VectorXd m_particular;
 };
 

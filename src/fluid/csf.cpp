@@ -25,7 +25,8 @@ Csf::Csf(double density, FluidModel model, std::vector<Compartment> compartments
     const Compartment& c = m_compartments[i];
     for (std::size_t j = 0; j < i; ++j) {
       if (m_compartments[j].name == c.name) {
-        throw Error(ErrorCode::invalid_argument, "Csf: two compartments are called '" + c.name + "'");
+        throw Error(ErrorCode::invalid_argument,
+                    "Csf: two compartments are called '" + c.name + "'");
       }
     }
     require_closed(c.wall_points, c.wall_triangles, "the wall of compartment '" + c.name + "'");
@@ -40,13 +41,16 @@ Index Csf::find(const std::string& name) const {
   throw Error(ErrorCode::invalid_argument, "Csf: there is no compartment '" + name + "'");
 }
 
-void Csf::set(Index compartment, FluidLaw law, double amount) {
+std::size_t Csf::checked(Index compartment) const {
   if (compartment < 0 || compartment >= compartment_count()) {
-    throw Error(ErrorCode::index_out_of_range,
-                "Csf: compartment " + std::to_string(compartment) + " of " +
-                    std::to_string(compartment_count()));
+    throw Error(ErrorCode::index_out_of_range, "Csf: compartment " + std::to_string(compartment) +
+                                                   " of " + std::to_string(compartment_count()));
   }
-  const std::string& name = m_compartments[std::size_t(compartment)].name;
+  return std::size_t(compartment);
+}
+
+void Csf::set(Index compartment, FluidLaw law, double amount) {
+  const std::string& name = m_compartments[checked(compartment)].name;
   if (!std::isfinite(amount)) {
     throw Error(ErrorCode::not_finite, "Csf: the amount set for '" + name + "' is not finite");
   }
@@ -72,9 +76,7 @@ void Csf::open(Index compartment) {
 
 void Csf::set_full(Index compartment) { set(compartment, FluidLaw::full, 0.0); }
 
-void Csf::set_level(Index compartment, double height) {
-  set(compartment, FluidLaw::level, height);
-}
+void Csf::set_level(Index compartment, double height) { set(compartment, FluidLaw::level, height); }
 
 void Csf::set_lost_volume(Index compartment, double mm3) {
   set(compartment, FluidLaw::lost_volume, mm3);

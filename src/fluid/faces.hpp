@@ -11,8 +11,8 @@ namespace brainshift {
 struct Face {
   Index nodes[3];
   Vec3 x[3];
-  Vec3 heights;   // along `up`
-  Vec3 area;      // (x1-x0) x (x2-x0): twice the outward area vector
+  Vec3 heights;  // along `up`
+  Vec3 area;     // (x1-x0) x (x2-x0): twice the outward area vector
 
   Face(const Points& points, const Triangles& faces, Index f, const Vec3& up) {
     for (int k = 0; k < 3; ++k) {

@@ -14,9 +14,9 @@ namespace {
 void check_faces(const Indices& faces, Index count, const std::string& what) {
   for (Index f : faces) {
     if (f < 0 || f >= count) {
-      throw Error(ErrorCode::index_out_of_range, what + " refers to surface face " +
-                                                     std::to_string(f) + " of " +
-                                                     std::to_string(count));
+      throw Error(
+          ErrorCode::index_out_of_range,
+          what + " refers to surface face " + std::to_string(f) + " of " + std::to_string(count));
     }
   }
 }
@@ -58,7 +58,7 @@ Hydrostatics::Hydrostatics(const Mesh& mesh, const Csf& csf, const Vec3& gravity
     for (std::size_t f = 0; f < c.body_faces.size(); ++f) {
       body.row(Eigen::Index(f)) = mesh.surface().row(c.body_faces[f]);
     }
-    if (body.rows() > 0) {   // a compartment may hold fluid alone
+    if (body.rows() > 0) {  // a compartment may hold fluid alone
       require_closed(mesh.nodes(), body, "the tissue in compartment '" + c.name + "'");
     }
     m_compartments.push_back(c);
@@ -71,10 +71,10 @@ Hydrostatics::Hydrostatics(const Mesh& mesh, const Csf& csf, const Vec3& gravity
   m_reference_head = head_axis_top(m_up);
   if (std::isfinite(csf.reference_head())) {
     if (csf.reference_head() < m_reference_head) {
-      throw Error(ErrorCode::invalid_argument,
-                  "Csf: the reference head " + std::to_string(csf.reference_head()) +
-                      " mm lies below the top of the cavity at " +
-                      std::to_string(m_reference_head) + " mm");
+      throw Error(ErrorCode::invalid_argument, "Csf: the reference head " +
+                                                   std::to_string(csf.reference_head()) +
+                                                   " mm lies below the top of the cavity at " +
+                                                   std::to_string(m_reference_head) + " mm");
     }
     m_reference_head = csf.reference_head();
   }
@@ -129,9 +129,14 @@ void Hydrostatics::configure(const Csf& csf, const Vec3& gravity) {
     }
   }
   for (const Group& group : next.m_groups) {
-    const std::string& name = m_compartments[group.members.front()].name;
+    // Fluid leaves, and air enters, where the group is open.
+    std::string name;
     double free_space = 0.0;
-    for (std::size_t c : group.members) free_space += next.m_wall_volume[c] - m_rest_tissue[c];
+    for (std::size_t c : group.members) {
+      if (!next.m_open[c]) continue;
+      name += (name.empty() ? "" : "' and '") + m_compartments[c].name;
+      free_space += next.m_wall_volume[c] - m_rest_tissue[c];
+    }
     const bool volume = group.law == FluidLaw::lost_volume || group.law == FluidLaw::air_volume;
     if (volume && group.amount > free_space) {
       throw Error(ErrorCode::fluid_volume, ml(group.amount) + " asked of compartment '" + name +
@@ -175,7 +180,7 @@ void Hydrostatics::add_face_tangents(const Points& x, const Indices& faces, cons
     Mat3 slope[3];
     for (int j = 0; j < 3; ++j) slope[j] = area_derivative(face.x[0], face.x[1], face.x[2], j);
     const Mat3 lift = face.area * up.transpose();
-    const auto block = [&](int i, int j) -> Mat3 {   // -df_i/dx_j
+    const auto block = [&](int i, int j) -> Mat3 {  // -df_i/dx_j
       return w * (depth[i] * slope[j] - m.M(i, j) * lift);
     };
     for (int i = 0; i < 3; ++i) {

@@ -2,7 +2,7 @@
 //
 // The head of each group of compartments (one group each with FluidModel::separate, one for all
 // with communicating) is eliminated: at every position of the tissue it is the root h(x) of the
-// group's law, and the tangent carries the rank-one term that comes with it.
+// group's law, docs/theory.md (7), and the tangent carries the rank-one term that goes with it (8).
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ namespace brainshift {
 
 // K += column * row^T: the dependence of a head on the positions.
 struct RankOne {
-  Points column, row;   // N x 3
+  Points column, row;  // N x 3
 };
 
 class Hydrostatics {
@@ -36,7 +36,7 @@ class Hydrostatics {
   // The reference: full fluid along the reference gravity.
   void add_reference_force(const Points& x, double factor, Points& force) const;
 
-  // Adds -d force/dx at fixed heads (symmetric part), for the load or for minus the reference.
+  // Adds -d force/dx at fixed heads (symmetric part of (6)), for the load or minus the reference.
   void add_tangent(const Points& x, const std::vector<double>& heads, const Indices& slot_of,
                    BlockMatrix& K) const;
   void add_reference_tangent(const Points& x, double factor, const Indices& slot_of,
@@ -47,12 +47,12 @@ class Hydrostatics {
   CompartmentState state(Index compartment, const Points& x,
                          const std::vector<double>& heads) const;
   Eigen::VectorXd nodal_pressure(const Points& x, const std::vector<double>& heads) const;  // kPa
-  double weight_per_volume() const { return m_density * m_gravity.norm(); }   // kPa/mm
+  double weight_per_volume() const { return m_density * m_gravity.norm(); }  // kPa/mm
   double full_head() const { return m_full_head; }
 
  private:
-  struct Body {   // tissue or wall below a plane
-    double volume = 0.0, section = 0.0;   // mm^3, mm^2
+  struct Body {                          // tissue or wall below a plane
+    double volume = 0.0, section = 0.0;  // mm^3, mm^2
   };
   struct Group {  // compartments that share a head
     std::vector<std::size_t> members;
@@ -90,12 +90,12 @@ class Hydrostatics {
   std::vector<bool> m_open;
   std::vector<Group> m_groups;
   std::vector<std::size_t> m_group_of;
-  std::vector<double> m_wall_volume, m_rest_tissue;        // mm^3
+  std::vector<double> m_wall_volume, m_rest_tissue;  // mm^3
 
   Vec3 m_gravity, m_up, m_reference_gravity, m_reference_up;
-  double m_reference_head = 0.0;   // along the reference axis
-  double m_full_head = 0.0;        // along the present axis
-  double m_chimney = 0.0;          // mm^2; see solve_head
+  double m_reference_head = 0.0;  // along the reference axis
+  double m_full_head = 0.0;       // along the present axis
+  double m_chimney = 0.0;         // mm^2; see solve_head
 };
 
 }  // namespace brainshift

@@ -86,14 +86,16 @@ Hydrostatics::Balance Hydrostatics::balance(const Group& group, const Points& x,
 double Hydrostatics::solve_head(const Group& group, const Points& x,
                                 const std::vector<double>& tissue_total) const {
   double low = std::numeric_limits<double>::infinity();
-  for (std::size_t c : group.members) low = std::min(low, (m_compartments[c].wall_points * m_up).minCoeff());
+  for (std::size_t c : group.members)
+    low = std::min(low, (m_compartments[c].wall_points * m_up).minCoeff());
   double high = m_full_head, volume = 0.0;
   for (std::size_t c : group.members) volume += m_wall_volume[c];
   if (balance(group, x, tissue_total, high).value < 0.0) {
     low = high;
     high += volume / m_chimney;
   }
-  double head = group.law == FluidLaw::lost_volume || low == m_full_head ? high : 0.5 * (low + high);
+  double head =
+      group.law == FluidLaw::lost_volume || low == m_full_head ? high : 0.5 * (low + high);
   for (int i = 0; i < 200; ++i) {
     const Balance b = balance(group, x, tissue_total, head);
     if (std::abs(b.value) <= 1e-15 * volume) break;

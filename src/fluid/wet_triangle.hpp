@@ -3,7 +3,8 @@
 // A triangle is cut by the waterline where height = head. Over its wet part, in parent coordinates
 // (area 1/2): L_i = int N_i, M_ij = int N_i N_j, exactly. Both are continuous in head and heights,
 // and with p = w (head - height), w = density |g|, the consistent nodal force is
-//   f_i = -a int p N_i = -a w (head L_i - sum_j M_ij z_j),   a = (x1-x0) x (x2-x0).
+//   f_i = -a int p N_i = -a w (head L_i - sum_j M_ij z_j),   a = (x1-x0) x (x2-x0)
+// (docs/theory.md (5)).
 // The waterline itself adds nothing to the derivative of f, since p = 0 there.
 #pragma once
 

@@ -102,7 +102,7 @@ void ArrayReader::read_ascii(const char* text) {
   const std::size_t at_most = (std::size_t(end - text) + 1) / 2;
   if (wanted > at_most) refuse("has room for " + std::to_string(at_most) + " values" + expected);
   allocate();
-  const auto skip_blanks = [end](const char* at) { return at + std::strspn(at, " \t\r\n"); };
+  const auto skip_blanks = [](const char* at) { return at + std::strspn(at, " \t\r\n"); };
   const char* at = skip_blanks(text);
   for (std::size_t i = 0; i < wanted; ++i) {
     if (at == end) refuse("holds " + std::to_string(i) + " values" + expected);

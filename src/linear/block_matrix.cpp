@@ -17,9 +17,9 @@ BlockMatrix::BlockMatrix(const std::vector<Indices>& adjacency)
     total += 1 + std::size_t(near.end() - std::upper_bound(near.begin(), near.end(), Index(j)));
   }
   if (9 * total > std::size_t(std::numeric_limits<int>::max())) {
-    throw Error(ErrorCode::linear_solver,
-                "the stiffness matrix would have " + std::to_string(9 * total) +
-                    " entries, more than 32-bit indices can count");
+    throw Error(ErrorCode::linear_solver, "the stiffness matrix would have " +
+                                              std::to_string(9 * total) +
+                                              " entries, more than 32-bit indices can count");
   }
   m_rows.reserve(total);
   for (std::size_t j = 0; j < adjacency.size(); ++j) {

@@ -3,7 +3,7 @@
 // is ignored by the solvers), which keeps every block at a fixed stride.
 #pragma once
 
-#include <utility>
+#include <algorithm>
 #include <vector>
 
 #include "brainshift/types.hpp"
@@ -28,7 +28,8 @@ class BlockMatrix {
   const Index* rows_begin(Index j) const { return m_rows.data() + m_start[std::size_t(j)]; }
   const Index* rows_end(Index j) const { return m_rows.data() + m_start[std::size_t(j) + 1]; }
 
-  Slot slot(Index row, Index col) const;   // row >= col; throws Error(internal) if not in the pattern
+  // row >= col; throws Error(internal) if not in the pattern.
+  Slot slot(Index row, Index col) const;
   Slot slot_at(Index col, Index k) const;  // k-th block of the column
 
   void set_zero() { std::fill(m_values.begin(), m_values.end(), 0.0); }

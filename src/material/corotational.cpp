@@ -5,6 +5,7 @@
 // R changes by the three twists of the singular frame only: dR = sum_k 2/(s_i + s_j) t_k (t_k :
 // dF), t_k = U skew(e_k) V^T / sqrt 2. R and the t_k are orthogonal, so the eigenvalues of the
 // tangent are 2 mu + 3 lambda = 3 K (on R), 2 mu (five of them), and 2 mu + c_k on the twists.
+// docs/theory.md (4).
 #include <algorithm>
 
 #include "material/laws.hpp"

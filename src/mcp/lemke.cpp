@@ -20,7 +20,6 @@ class Tableau {
   Index complement(Index variable) const {
     return variable < m_n ? variable + m_n : variable - m_n;
   }
-  Index basic_in(Index row) const { return m_basis[row]; }
   bool finite() const { return m_rows.allFinite(); }
 
   // The first pivot: the covering variable enters where q is most negative.

@@ -30,9 +30,14 @@ constexpr double reach_of_a_step = 0.01;
 
 }  // namespace
 
-Newton::Newton(const Equilibrium& equilibrium, const StepperOptions& options, FactorCache& cache,
-               SolveReport& report)
-    : m_eq(equilibrium), m_options(options), m_cache(cache), m_report(report) {
+Newton::Newton(const Equilibrium& equilibrium, const Coupling& coupling,
+               const StepperOptions& options, FactorCache& cache, SolveReport& report)
+    : m_eq(equilibrium),
+      m_coupling(coupling),
+      m_options(options),
+      m_cache(cache),
+      m_report(report),
+      m_offset(no_offset()) {
   const auto& blocks = m_eq.blocks_pointer();
   m_free.assign(std::size_t(blocks->count()), Mat3::Identity());
   for (const NodeRow& row : m_eq.fixed_rows()) {
@@ -41,6 +46,7 @@ Newton::Newton(const Equilibrium& equilibrium, const StepperOptions& options, Fa
     if (left.squaredNorm() > 1e-12) free -= left * left.transpose() / left.squaredNorm();
   }
   if (m_cache.made_for == blocks) return;
+  m_cache.made_for.reset();  // of no pattern, should one of the next lines throw
   m_cache.stiffness = blocks->make_matrix();
   m_cache.reduced = m_cache.stiffness;
   m_cache.solver = make_spd_solver();
@@ -48,10 +54,11 @@ Newton::Newton(const Equilibrium& equilibrium, const StepperOptions& options, Fa
   m_cache.made_for = blocks;
 }
 
-void Newton::refresh(const Eigen::VectorXd& offset) {
+void Newton::refresh() {
   Stopwatch watch(m_report.seconds_assembly);
   m_forces = m_eq.forces(m_state.u);
-  m_load = m_eq.blocks().gather(m_forces.external - m_forces.internal) + offset;
+  m_load = m_eq.blocks().gather(m_forces.external - m_forces.internal) + m_offset.tissue;
+  refresh_devices();
 }
 
 // What the fixed rows of a block leave of a direction.
@@ -119,7 +126,7 @@ bool Newton::factorise_shifted(const Reduction& reduction) {
 }
 
 // Assembles the tangent; definite where a former one of this solve was not positive.
-bool Newton::linearise() {
+void Newton::linearise() {
   Stopwatch watch(m_report.seconds_assembly);
   m_eq.tangent(m_state.u, m_forces, m_state.multipliers, m_definite, m_cache.stiffness);
   m_terms = m_eq.head_terms(m_state.u, m_forces);
@@ -129,45 +136,58 @@ bool Newton::linearise() {
     m_columns.push_back(m_eq.blocks().gather(term.column));
     m_rows.push_back(m_eq.blocks().gather(term.row));
   }
-  return true;
 }
 
-// Solves (K + sum column row^T) dx = load on the admissible directions (Sherman, Morrison,
-// Woodbury), and finds the multipliers of the active rows.
+// Solves (K + sum column row^T) y = T^T force for each column, on the admissible directions
+// (Sherman, Morrison, Woodbury); the answer is expanded to motions of the blocks.
+Eigen::MatrixXd Newton::solve_tissue(const Reduction& reduction,
+                                     const Eigen::MatrixXd& forces) const {
+  const auto terms = Eigen::Index(m_columns.size()), count = forces.cols();
+  Eigen::MatrixXd y(forces.rows(), count + terms), rows(forces.rows(), terms);
+  for (Eigen::Index k = 0; k < count; ++k) y.col(k) = reduction.restrict_force(forces.col(k));
+  for (Eigen::Index k = 0; k < terms; ++k) {
+    y.col(count + k) = reduction.restrict_force(m_columns[std::size_t(k)]);
+    rows.col(k) = reduction.restrict_force(m_rows[std::size_t(k)]);
+  }
+  m_cache.solver->solve(y);
+  if (terms > 0) {
+    const Eigen::MatrixXd columns = y.rightCols(terms);
+    const Eigen::MatrixXd small =
+        Eigen::MatrixXd::Identity(terms, terms) + rows.transpose() * columns;
+    y.leftCols(count) -= columns * small.partialPivLu().solve(rows.transpose() * y.leftCols(count));
+  }
+  Eigen::MatrixXd moved(forces.rows(), count);
+  for (Eigen::Index k = 0; k < count; ++k) moved.col(k) = reduction.expand(y.col(k));
+  return moved;
+}
+
+// The step of tissue and devices, and the multipliers of contact and coupling rows.
 Newton::Step Newton::direction(const Reduction& reduction) {
   Stopwatch watch(m_report.seconds_factor);
-  const std::size_t terms = m_columns.size();
   const Eigen::VectorXd& c = reduction.particular();
   Eigen::VectorXd product;
   m_cache.stiffness.multiply(c, product);
   Eigen::VectorXd rhs = m_load - product;
-  for (std::size_t k = 0; k < terms; ++k) rhs -= m_columns[k] * m_rows[k].dot(c);
+  for (std::size_t k = 0; k < m_columns.size(); ++k) rhs -= m_columns[k] * m_rows[k].dot(c);
 
-  Eigen::MatrixXd x(rhs.size(), Eigen::Index(1 + terms));
-  x.col(0) = reduction.restrict_force(rhs);
-  Eigen::MatrixXd rows(rhs.size(), Eigen::Index(terms));
-  for (std::size_t k = 0; k < terms; ++k) {
-    x.col(Eigen::Index(1 + k)) = reduction.restrict_force(m_columns[k]);
-    rows.col(Eigen::Index(k)) = reduction.restrict_force(m_rows[k]);
-  }
-  m_cache.solver->solve(x);
-  Eigen::VectorXd y = x.col(0);
-  if (terms > 0) {
-    const auto columns = x.rightCols(Eigen::Index(terms));
-    const Eigen::MatrixXd small =
-        Eigen::MatrixXd::Identity(Eigen::Index(terms), Eigen::Index(terms)) +
-        rows.transpose() * columns;
-    y -= columns * small.partialPivLu().solve(rows.transpose() * y);
-  }
   Step step;
-  step.dx = reduction.expand(y) + c;
+  Eigen::VectorXd pushed = m_load;   // with what the coupling adds
+  if (m_coupling.empty()) {
+    step.dx = solve_tissue(reduction, rhs) + c;
+  } else {
+    couple(reduction, rhs, step, pushed);
+  }
   m_cache.stiffness.multiply(step.dx, product);
-  Eigen::VectorXd unbalanced = m_load - product;
-  for (std::size_t k = 0; k < terms; ++k) unbalanced -= m_columns[k] * m_rows[k].dot(step.dx);
+  Eigen::VectorXd unbalanced = pushed - product;
+  for (std::size_t k = 0; k < m_columns.size(); ++k) {
+    unbalanced -= m_columns[k] * m_rows[k].dot(step.dx);
+  }
   step.multipliers.assign(m_active.size() + 1, 0.0);   // the last one collects fixed rows
   reduction.multipliers(unbalanced, step.multipliers);
   step.multipliers.pop_back();
   step.slope = m_load.dot(step.dx);
+  for (std::size_t d = 0; d < step.dq.size(); ++d) step.slope += m_device_load[d].dot(step.dq[d]);
+  predict(step);
   return step;
 }
 
@@ -205,6 +225,7 @@ bool Newton::find_step(Step& step, bool fresh) {
     return step.dx.allFinite();
   }
   linearise();
+  if (!factorise_devices()) return false;
   choose_active();
   for (int change = 0;;) {
     const Reduction reduction = make_reduction();
@@ -270,12 +291,14 @@ void Newton::make_feasible(double part, Points& u, std::vector<char>& touched) c
   }
 }
 
-// Backtracking on the change of energy; returns the part of the step taken, 0 if none would do.
+// Backtracking on the change of energy (and of what open ties and slip add to the merit); returns the
+// part of the step taken, 0 if none would do.
 double Newton::search(const Step& step, MechanicalState& next) {
   Stopwatch watch(m_report.seconds_line_search);
   const Points& u0 = m_state.u;
   const Points external0 = m_forces.external;
-  const double energy0 = m_eq.stored_energy(u0);
+  const double energy0 = m_eq.stored_energy(u0) + device_energy(m_state.devices);
+  const double rows0 = merit_of_rows(m_state, step.weight);
   const Eigen::VectorXd jacobians = m_eq.tissue().jacobians(u0);
   std::vector<char> touched;
   double part = 1.0;
@@ -283,22 +306,28 @@ double Newton::search(const Step& step, MechanicalState& next) {
     next.u = u0;
     m_eq.blocks().scatter_add(step.dx, part, next.u);
     make_feasible(part, next.u, touched);
+    move_devices(step, part, next);
     if (!next.u.allFinite() || !no_new_inversion(next.u, jacobians)) {
       part *= 0.5;
       continue;
     }
-    const double energy1 = m_eq.stored_energy(next.u);
-    const double work = m_eq.external_work(u0, external0, next.u) +
-                        m_offset.dot(m_eq.blocks().gather_motion(next.u - u0));
-    const double change = energy1 - energy0 - work;
-    const double noise = 1e-12 * (std::abs(energy0) + std::abs(energy1) + std::abs(work));
-    if (change <= -1e-4 * part * step.slope + noise) {
+    const double energy1 = m_eq.stored_energy(next.u) + device_energy(next.devices);
+    double work = m_eq.external_work(u0, external0, next.u) +
+                  m_offset.tissue.dot(m_eq.blocks().gather_motion(next.u - u0));
+    for (std::size_t d = 0; d < step.dq.size(); ++d) {
+      work += part * m_offset.devices[d].dot(step.dq[d]);
+    }
+    const double change = energy1 - energy0 - work + merit_of_rows(next, step.weight) - rows0;
+    // Rounding of energies, and of the gaps of ties that are as closed as they can be.
+    const double noise = 1e-12 * (std::abs(energy0) + std::abs(energy1) + std::abs(work)) +
+                         1e-13 * m_eq.mesh().diameter() * step.weight * double(m_couplings.size());
+    if (change <= -1e-4 * part * step.predicted + noise) {
       m_active = touched;
       return part;
     }
     // Minimum of the parabola through value and slope at 0 and the value here, kept in [0.1, 0.5].
-    const double bend = change + part * step.slope;
-    const double best = bend > 0.0 ? 0.5 * part * part * step.slope / bend : 0.5 * part;
+    const double bend = change + part * step.predicted;
+    const double best = bend > 0.0 ? 0.5 * part * part * step.predicted / bend : 0.5 * part;
     part = std::clamp(best, 0.1 * part, 0.5 * part);
   }
   return 0.0;
@@ -307,25 +336,28 @@ double Newton::search(const Step& step, MechanicalState& next) {
 // Multipliers that balance the forces at the present state best; negative ones are given up.
 void Newton::estimate_multipliers() {
   std::vector<double> found(m_active.size() + 1, 0.0);
-  make_reduction().multipliers(m_load, found);
+  make_reduction().multipliers(m_load + coupling_force(), found);
   found.pop_back();
   for (std::size_t r = 0; r < found.size(); ++r) {
     m_state.multipliers[r] = m_active[r] ? std::max(found[r], 0.0) : 0.0;
   }
 }
 
-void Newton::measure(const Eigen::VectorXd& offset) {
+void Newton::measure() {
   const Blocks& blocks = m_eq.blocks();
   const Eigen::VectorXd contact = m_eq.contact_force(m_forces, m_state.multipliers);
-  const Eigen::VectorXd total = m_load + contact;
+  const Eigen::VectorXd coupling = coupling_force();
+  const Eigen::VectorXd total = m_load + contact + coupling;
   const Reduction fixed(blocks.count(), m_eq.fixed_rows());
   const Eigen::VectorXd rest = fixed.project(total);
-  const double constraint = std::max(max_norm(contact), max_norm(total - rest));
+  const double constraint =
+      std::max({max_norm(contact), max_norm(coupling), max_norm(total - rest)});
   const double scale =
       std::max({max_norm(blocks.gather(m_forces.internal)),
-                max_norm(blocks.gather(m_forces.external) + offset), constraint,
+                max_norm(blocks.gather(m_forces.external) + m_offset.tissue), constraint,
                 m_eq.force_floor()});
-  m_report.residual = max_norm(rest) / scale;
+  m_report.residual = std::max(max_norm(rest), device_residual()) / scale;
+  measure_coupling();
   m_report.complementarity = 0.0;
   m_report.violation = 0.0;
   m_report.active_contacts = 0;
@@ -336,32 +368,37 @@ void Newton::measure(const Eigen::VectorXd& offset) {
     m_report.complementarity =
         std::max(m_report.complementarity,
                  std::abs(std::min(gap / m_eq.mesh().diameter(), multiplier / scale)));
-    if (multiplier > 0.0) ++m_report.active_contacts;
+    // Forces below the tolerance are rounding, not contact.
+    if (multiplier > m_options.residual_tolerance * scale) ++m_report.active_contacts;
   }
 }
 
 bool Newton::small_enough(double last_correction) const {
   return m_report.residual <= m_options.residual_tolerance &&
          m_report.complementarity <= m_options.complementarity_tolerance &&
+         m_report.tie_gap <= m_options.correction_tolerance * m_eq.mesh().diameter() &&
          last_correction <= m_options.correction_tolerance * m_eq.mesh().diameter();
 }
 
-Eigen::VectorXd Newton::unbalanced(const MechanicalState& state) {
+Offset Newton::unbalanced(const MechanicalState& state) {
   m_state = state;
-  refresh(Eigen::VectorXd::Zero(3 * m_eq.blocks().count()));
-  return m_load + m_eq.contact_force(m_forces, m_state.multipliers);
+  m_offset = no_offset();
+  refresh();
+  Offset total{m_load + m_eq.contact_force(m_forces, m_state.multipliers) + coupling_force(),
+               coupled_device_load()};
+  return total;
 }
 
-void Newton::certify(const MechanicalState& state, const Eigen::VectorXd& offset) {
+void Newton::certify(const MechanicalState& state) {
   m_state = state;
-  refresh(offset);
-  measure(offset);
-  m_report.energy = m_eq.stored_energy(state.u);
+  m_offset = no_offset();
+  refresh();
+  measure();
+  m_report.energy = m_eq.stored_energy(state.u) + device_energy(state.devices);
   m_report.smallest_jacobian = m_eq.tissue().jacobians(state.u).minCoeff();
 }
 
-Newton::Outcome Newton::solve(MechanicalState& state, const Eigen::VectorXd& offset,
-                              double load_factor) {
+Newton::Outcome Newton::solve(MechanicalState& state, const Offset& offset, double load_factor) {
   m_state = state;
   m_offset = offset;
   m_definite = false;
@@ -370,10 +407,11 @@ Newton::Outcome Newton::solve(MechanicalState& state, const Eigen::VectorXd& off
   double previous = last;
   bool fresh = true;
   std::vector<char> factored_set;
-  refresh(offset);
-  measure(offset);
+  refresh();
+  measure();
   if (m_report.residual <= 1e-4 * m_options.residual_tolerance &&
-      m_report.complementarity <= m_options.complementarity_tolerance) {
+      m_report.complementarity <= m_options.complementarity_tolerance &&
+      m_report.tie_gap <= 1e-4 * m_options.correction_tolerance * m_eq.mesh().diameter()) {
     m_report.last_correction = 0.0;
     return Outcome::converged;
   }
@@ -396,10 +434,16 @@ Newton::Outcome Newton::solve(MechanicalState& state, const Eigen::VectorXd& off
     m_definite = false;
     previous = last;
     last = max_norm(step.dx) * part;
+    for (const Eigen::VectorXd& dq : step.dq) {
+      for (Eigen::Index i = 0; i < dq.size(); i += 6) {
+        last = std::max(last, part * dq.segment<3>(i).cwiseAbs().maxCoeff());
+      }
+    }
     m_state.u = std::move(next.u);
-    refresh(offset);
+    m_state.devices = std::move(next.devices);
+    refresh();
     estimate_multipliers();
-    measure(offset);
+    measure();
     ++m_report.iterations;
     m_report.last_correction = last;
     if (m_options.progress &&

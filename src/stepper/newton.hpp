@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "brainshift/stepper.hpp"
+#include "coupling/coupling.hpp"
 #include "linear/spd_solver.hpp"
 #include "stepper/equilibrium.hpp"
 
@@ -20,39 +21,51 @@ struct FactorCache {
   std::unique_ptr<SpdSolver> solver;
 };
 
-// What changes in a solve: displacement, and multiplier per contact row.
+// What changes in a solve: displacement, multiplier per contact row, and the devices.
 struct MechanicalState {
   Points u;
   std::vector<double> multipliers;
+  std::vector<DeviceMotion> devices;
 };
+
+// A force that balances what is out of balance when a solve begins, to be let go in steps.
+struct Offset {
+  Eigen::VectorXd tissue;   // on blocks, mN
+  DeviceVectors devices;    // on dofs
+};
+Offset operator*(double factor, const Offset& offset);
 
 class Newton {
  public:
   enum class Outcome { converged, stuck, out_of_iterations, cancelled };
 
-  Newton(const Equilibrium& equilibrium, const StepperOptions& options, FactorCache& cache,
-         SolveReport& report);
+  Newton(const Equilibrium& equilibrium, const Coupling& coupling, const StepperOptions& options,
+         FactorCache& cache, SolveReport& report);
 
   // Finds the balance of all forces plus `offset` (on blocks) from `state`; on anything but
   // converged `state` is left as it was.
-  Outcome solve(MechanicalState& state, const Eigen::VectorXd& offset, double load_factor);
+  Outcome solve(MechanicalState& state, const Offset& offset, double load_factor);
 
-  // Unbalanced force on blocks with the state's own multipliers; what fixed rows carry stays in.
-  Eigen::VectorXd unbalanced(const MechanicalState& state);
+  // Unbalanced force with the state's own multipliers; what fixed rows carry stays in.
+  Offset unbalanced(const MechanicalState& state);
   // Fills the certificate of `report` for this state.
-  void certify(const MechanicalState& state, const Eigen::VectorXd& offset);
+  void certify(const MechanicalState& state);
 
  private:
   struct Step {
     Eigen::VectorXd dx;                 // on blocks
     std::vector<double> multipliers;    // per contact row
-    double slope = 0.0;                 // force . dx: what the energy falls by, to first order
+    DeviceVectors dq;                   // on the dofs of each device
+    Eigen::VectorXd coupling;           // multiplier per coupling row
+    double slope = 0.0;                 // force . step: what the energy falls by, to first order
+    double predicted = 0.0;             // fall of the merit to first order, rows included
+    double weight = 0.0;                // mN; of open ties in the merit
   };
 
-  void refresh(const Eigen::VectorXd& offset);           // forces at m_state.u
+  void refresh();                                        // forces at m_state
   bool small_enough(double last_correction) const;
   void choose_active();
-  bool linearise();                                      // assemble, reduce, factorise
+  void linearise();                                      // assembles the tangent
   bool factorise_shifted(const Reduction& reduction);
   Reduction make_reduction(const Reduction* like = nullptr) const;
   Step direction(const Reduction& reduction);
@@ -62,19 +75,39 @@ class Newton {
   bool no_new_inversion(const Points& u, const Eigen::VectorXd& before) const;
   void make_feasible(double part, Points& u, std::vector<char>& touched) const;
   void estimate_multipliers();
-  void measure(const Eigen::VectorXd& offset);
+  void measure();
+  Offset no_offset() const;
+  bool factorise_devices();
+  Eigen::MatrixXd solve_tissue(const Reduction& reduction, const Eigen::MatrixXd& forces) const;
+  // Step of tissue and devices through their rows; adds the rows' force to `pushed`.
+  void couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step& step,
+              Eigen::VectorXd& pushed);
+  void predict(Step& step) const;
+  void refresh_devices();
+  void move_devices(const Step& step, double part, MechanicalState& next) const;
+  DeviceVectors coupled_device_load() const;
+  double device_residual() const;
+  void measure_coupling();
+  double merit_of_rows(const MechanicalState& state, double weight) const;
+  double device_energy(const std::vector<DeviceMotion>& motions) const;
+  Eigen::VectorXd coupling_force() const;
   double local_stiffness(Index block) const;
   Vec3 free_part(Index block, const Vec3& direction) const;
   double mobility(std::size_t r) const;
 
   const Equilibrium& m_eq;
+  const Coupling& m_coupling;
   const StepperOptions& m_options;
   FactorCache& m_cache;
   SolveReport& m_report;
 
   MechanicalState m_state;
   Forces m_forces;
-  Eigen::VectorXd m_offset, m_load;     // m_load = external - internal + offset, on blocks
+  Offset m_offset;
+  Eigen::VectorXd m_load;               // external - internal + offset, on blocks; no rows
+  DeviceVectors m_device_load;          // -gradient + offset, held dofs 0; no rows
+  std::vector<CouplingRow> m_couplings;
+  std::vector<BlockTridiagonalFactor> m_device_factors;
   std::vector<char> m_active;           // per contact row
   std::vector<Mat3> m_free;             // per block: projection on what its fixed rows leave free
   std::vector<RankOne> m_terms;

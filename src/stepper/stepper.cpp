@@ -3,12 +3,10 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <string>
 
 #include "brainshift/error.hpp"
-#include "stepper/equilibrium.hpp"
-#include "stepper/newton.hpp"
+#include "stepper/stepper_impl.hpp"
 
 namespace brainshift {
 
@@ -22,102 +20,6 @@ const char* to_string(Status status) {
   return "unknown";
 }
 
-namespace {
-
-struct Settings {
-  std::optional<Csf> csf;
-  ConstraintSet constraints;
-  Vec3 gravity = Vec3::Zero();
-};
-
-}  // namespace
-
-// What snapshot() keeps. Multipliers by group, so that groups may come and go.
-class Stepper::Snapshot {
- public:
-  Points u;
-  std::map<ConstraintId, Eigen::VectorXd> multipliers;
-  Settings wanted;   // by the host, for the next solve
-  Settings solved;   // those u is in balance with
-};
-
-class Stepper::Impl {
- public:
-  Impl(Scene scene, StepperOptions options)
-      : m_mesh(scene.mesh), m_options(std::move(options)), m_equilibrium(scene) {
-    check_options();
-    m_state.wanted = {std::move(scene.csf), std::move(scene.constraints), scene.gravity};
-    m_state.solved = m_state.wanted;
-    m_state.u.setZero(m_mesh.node_count(), 3);
-    refuse_penetration();
-  }
-
-  void check_options() const {
-    const auto require = [](bool good, const char* what) {
-      if (!good) throw Error(ErrorCode::invalid_argument, std::string("StepperOptions: ") + what);
-    };
-    const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
-    require(positive(m_options.residual_tolerance), "residual_tolerance is not positive");
-    require(positive(m_options.complementarity_tolerance),
-            "complementarity_tolerance is not positive");
-    require(positive(m_options.correction_tolerance), "correction_tolerance is not positive");
-    require(positive(m_options.smallest_load_step), "smallest_load_step is not positive");
-    require(m_options.initial_penetration >= 0.0, "initial_penetration is negative");
-    require(m_options.max_iterations > 0, "max_iterations is not positive");
-  }
-
-  void refuse_penetration() const {
-    const ContactRows& contacts = m_equilibrium.contacts();
-    const double allowed = m_options.initial_penetration * m_mesh.diameter();
-    for (std::size_t r = 0; r < contacts.size(); ++r) {
-      const double gap = contacts.sample(r, m_state.u).gap;
-      if (gap < -allowed) {
-        throw Error(ErrorCode::initial_penetration,
-                    "constraint '" + contacts.group_of(r).name + "': node " +
-                        std::to_string(contacts.mesh_node(r)) + " starts " + std::to_string(-gap) +
-                        " mm inside the obstacle");
-      }
-    }
-  }
-
-  SolveReport solve_static();
-
-  static void configure(Equilibrium& equilibrium, const Settings& settings) {
-    equilibrium.configure(settings.constraints, settings.csf, settings.gravity);
-  }
-
-  MechanicalState mechanical(const ContactRows& contacts) const {
-    MechanicalState m{m_state.u, std::vector<double>(contacts.size(), 0.0)};
-    for (std::size_t r = 0; r < m.multipliers.size(); ++r) {
-      const auto found = m_state.multipliers.find(contacts.group_of(r).id);
-      if (found == m_state.multipliers.end()) continue;
-      m.multipliers[r] = found->second[Eigen::Index(contacts.row(r).item)];
-    }
-    return m;
-  }
-
-  // The present state with what a solve has found; made apart, so that a failure changes nothing.
-  Snapshot solved(const MechanicalState& m, const ContactRows& contacts) const {
-    Snapshot next = m_state;
-    next.u = m.u;
-    next.multipliers.clear();
-    next.solved = next.wanted;
-    for (std::size_t r = 0; r < m.multipliers.size(); ++r) {
-      const ConstraintGroup& group = contacts.group_of(r);
-      Eigen::VectorXd& values = next.multipliers[group.id];
-      if (values.size() == 0) values.setZero(Eigen::Index(group.nodes.size()));
-      values[Eigen::Index(contacts.row(r).item)] = m.multipliers[r];
-    }
-    return next;
-  }
-
-  Mesh m_mesh;
-  StepperOptions m_options;
-  Equilibrium m_equilibrium;
-  Snapshot m_state;
-  FactorCache m_cache;
-};
-
 // The change of settings since the last solve appears as a force out of balance; it is let go in
 // one load step, or in smaller ones where Newton does not get through.
 SolveReport Stepper::Impl::solve_static() {
@@ -125,9 +27,10 @@ SolveReport Stepper::Impl::solve_static() {
   Equilibrium trial = m_equilibrium;  // whatever fails below leaves the present one as it is
   configure(trial, m_state.wanted);
   SolveReport report;
-  Newton newton(trial, m_options, m_cache, report);
+  const Coupling coupling(m_mesh, m_state.devices, m_state.u);
+  Newton newton(trial, coupling, m_options, m_cache, report);
   MechanicalState state = mechanical(trial.contacts());
-  const Eigen::VectorXd unbalanced = newton.unbalanced(state);
+  const Offset unbalanced = newton.unbalanced(state);
   double reached = 0.0, step = 1.0;
   report.status = Status::converged;
   while (reached < 1.0) {
@@ -157,7 +60,7 @@ SolveReport Stepper::Impl::solve_static() {
   }
   report.load_factor = reached;
   if (report.status == Status::converged) {
-    newton.certify(state, Eigen::VectorXd::Zero(unbalanced.size()));
+    newton.certify(state);
     Snapshot next = solved(state, trial.contacts());
     std::swap(m_state, next);
     m_equilibrium = std::move(trial);

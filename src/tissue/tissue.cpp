@@ -91,7 +91,7 @@ ElementMap Tissue::map_elements(const Indices& slot_of, const BlockMatrix& K) co
 
 namespace {
 
-// K_ab = V sum_jl  dN_a/dX_j  dP_ij/dF_kl  dN_b/dX_l  (docs/theory.md, tangent stiffness).
+// K_ab = V sum_jl  dN_a/dX_j  dP_ij/dF_kl  dN_b/dX_l  (docs/theory.md (3)).
 // A is 9 x 9 over column-major vectors: rows (i, j) -> i + 3 j.
 void element_blocks(const Mat9& A, const Tet4& e, Mat3 (&blocks)[10]) {
   Eigen::Matrix<double, 9, 12> AB;  // column 3 b + k: dP for u_b along k
@@ -164,8 +164,8 @@ double Tissue::mass() const {
 Eigen::VectorXd Tissue::jacobians(const Points& u) const {
   Eigen::VectorXd result(m_mesh.tet_count());
   for (Index t = 0; t < m_mesh.tet_count(); ++t) {
-    result[t] = 1.0 + volume_change(m_elements[std::size_t(t)].displacement_gradient(
-                          u, m_mesh.tets(), t));
+    result[t] =
+        1.0 + volume_change(m_elements[std::size_t(t)].displacement_gradient(u, m_mesh.tets(), t));
   }
   return result;
 }

@@ -13,8 +13,8 @@ namespace brainshift {
 
 // Where the ten lower blocks of each element go in a matrix; made once per matrix pattern.
 struct ElementMap {
-  std::vector<BlockMatrix::Slot> slots;       // 10 per tet
-  std::vector<std::uint16_t> transposed;      // bit k: block k is stored transposed
+  std::vector<BlockMatrix::Slot> slots;   // 10 per tet
+  std::vector<std::uint16_t> transposed;  // bit k: block k is stored transposed
 };
 
 class Tissue {
@@ -23,7 +23,7 @@ class Tissue {
 
   const Mesh& mesh() const { return m_mesh; }
 
-  double energy(const Points& u) const;                 // uJ
+  double energy(const Points& u) const;  // uJ
   // Internal force: gradient of the energy (mN), N x 3.
   void internal_force(const Points& u, Points& force) const;
   // slot_of[node]: block of the node in K; nodes tied together share one.
@@ -34,15 +34,15 @@ class Tissue {
                BlockMatrix& K) const;
   // m/4 g on each node of a tet: N x 3 for gravity g (mm/s^2).
   Points gravity_force(const Vec3& gravity) const;
-  double mass() const;                                  // kg
+  double mass() const;  // kg
 
-  Eigen::VectorXd jacobians(const Points& u) const;     // M; det F
+  Eigen::VectorXd jacobians(const Points& u) const;  // M; det F
   // Neighbours of each node through tets, sorted.
   std::vector<Indices> node_adjacency() const;
-  double stiffness_scale() const { return m_scale; }    // largest Young's modulus, kPa
+  double stiffness_scale() const { return m_scale; }  // largest Young's modulus, kPa
 
  private:
-  struct Part {   // tets that share a material
+  struct Part {  // tets that share a material
     Material material;
     Indices tets;
   };

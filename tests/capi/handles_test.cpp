@@ -65,7 +65,10 @@ std::vector<Probe> probes_of_values(World& w, Scratch& s) {
       {"brs_scene_create", "context",
        [&](void* h) { return brs_scene_create(as<brs_context>(h), w.mesh, &s.scene); }},
       {"brs_scene_create", "mesh",
-       [&](void* h) { return brs_scene_create(w.context, as<brs_mesh>(h), &s.scene); }},
+       [&](void* h) {
+         brs_scene_destroy(s.scene);  // that of the probe before
+         return brs_scene_create(w.context, as<brs_mesh>(h), &s.scene);
+       }},
   };
 }
 

@@ -106,6 +106,8 @@ TEST(FluidErrors, AmountsThatCannotBe) {
   expect_error(ErrorCode::not_finite, "'all'", [&] { s.csf.set_lost_volume(0, not_a_number); });
   expect_error(ErrorCode::index_out_of_range, "7", [&] { s.csf.set_full(7); });
   expect_error(ErrorCode::index_out_of_range, "-1", [&] { s.csf.set_full(-1); });
+  expect_error(ErrorCode::index_out_of_range, "1 of 1", [&] { s.csf.is_open(1); });
+  expect_error(ErrorCode::index_out_of_range, "-2 of 1", [&] { s.csf.compartment(-2); });
   EXPECT_EQ(s.csf.law(0), FluidLaw::full);  // nothing was taken up
 }
 
@@ -122,6 +124,25 @@ TEST(FluidErrors, MoreFluidThanThereIsLeavesTheLoadAsItWas) {
                  [&] { fluid.configure(s.csf, test::gravity_down); });
     EXPECT_EQ(fluid.heads(s.mesh.nodes())[0], fluid.full_head());
   }
+}
+
+TEST(FluidErrors, MoreCommunicatingFluidThanTheOpenSideHolds) {
+  const Mesh mesh = test::make_mesh(test::make_box({10, 10, 10}, 1, 1, 1));
+  Csf csf(test::fluid_density, FluidModel::communicating,
+          {test::make_compartment("closed", test::box_wall({-5, -5, -5}, {15, 15, 15}),
+                                  test::all_faces(mesh)),
+           test::make_compartment("open", test::box_wall({15, -5, -5}, {35, 15, 15}), {})});
+  Hydrostatics fluid(mesh, csf, test::gravity_down);
+  csf.set_lost_volume(1, 7999.0);  // of 8000 mm^3; the closed side keeps its 7000
+  fluid.configure(csf, test::gravity_down);
+  csf.set_lost_volume(1, 8001.0);
+  expect_error(ErrorCode::fluid_volume, "'open'",
+               [&] { fluid.configure(csf, test::gravity_down); });
+  csf.open(0);
+  fluid.configure(csf, test::gravity_down);
+  csf.set_lost_volume(1, 15001.0);
+  expect_error(ErrorCode::fluid_volume, "'closed' and 'open'",
+               [&] { fluid.configure(csf, test::gravity_down); });
 }
 
 TEST(FluidErrors, ALevelAboveTheFullOne) {

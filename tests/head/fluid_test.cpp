@@ -1,8 +1,8 @@
 // The fluid's load on the head: Archimedes, unequal levels, the seam, level against volume.
 #include <algorithm>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "head_scene.hpp"
 
@@ -41,7 +41,7 @@ Vec3 face_force(const Vec3 (&x)[3], const Vec3& up, double head, double w) {
   Vec3 force = Vec3::Zero();
   for (std::size_t k = 2; k < polygon.size(); ++k) {
     const Vec3 &a = polygon[0], &b = polygon[k - 1], &c = polygon[k];
-    const double mean = head - (a + b + c).dot(up) / 3.0;   // linear: mean of the corners
+    const double mean = head - (a + b + c).dot(up) / 3.0;  // linear: mean of the corners
     force -= w * mean * 0.5 * (b - a).cross(c - a);
   }
   return force;
@@ -95,7 +95,7 @@ TEST(Fluid, UnequalLevelsEqualDirectQuadrature) {
   Options o = quiet_options();
   o.fluid = "separate";
   HeadStepper h(o);
-  const double heads[2] = {h.full, h.full - 30.0};   // left, right
+  const double heads[2] = {h.full, h.full - 30.0};  // left, right
   h.stepper.csf().set_level(h.compartment(right), heads[right]);
   ASSERT_TRUE(h.stepper.solve_static().converged());
   const Points x = h.stepper.positions();

@@ -26,7 +26,7 @@ struct HeadStepper {
         full(full_level(shipped_head(), gravity_of(o.elevation))) {}
   SceneIds ids;
   Stepper stepper;
-  double full;   // mm
+  double full;  // mm
   Index compartment(int side) const { return stepper.csf().find(name_of(side)); }
 };
 

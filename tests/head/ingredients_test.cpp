@@ -15,11 +15,11 @@ void show(const char* what, const Options& o) {
     ASSERT_TRUE(s.report.converged()) << what << ": " << s.report.message;
     if (number == 0) continue;
     const Vec3 l = s.shifts.at("STN_left"), r = s.shifts.at("STN_right");
-    std::printf("%-34s surface left %5.2f right %5.2f, midline %6.3f mm, "
-                "STN left (%5.2f %5.2f %5.2f) right (%5.2f %5.2f %5.2f), air %.1f mL\n",
-                what, s.surface_motion[left], s.surface_motion[right], s.midline_shift, l.x(),
-                l.y(), l.z(), r.x(), r.y(), r.z(),
-                (s.fluid[left].air_volume + s.fluid[right].air_volume) / mm3_per_ml);
+    std::printf(
+        "%-34s surface left %5.2f right %5.2f, midline %6.3f mm, "
+        "STN left (%5.2f %5.2f %5.2f) right (%5.2f %5.2f %5.2f), air %.1f mL\n",
+        what, s.surface_motion[left], s.surface_motion[right], s.midline_shift, l.x(), l.y(), l.z(),
+        r.x(), r.y(), r.z(), (s.fluid[left].air_volume + s.fluid[right].air_volume) / mm3_per_ml);
   }
 }
 

@@ -1,5 +1,6 @@
 // Every stage of the procedure ends in a certified balance, in time.
 #include <chrono>
+#include <ctime>
 
 #include <gtest/gtest.h>
 
@@ -10,23 +11,28 @@ namespace {
 
 TEST(Stages, EndInBalanceAndInTime) {
   const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start_of_work = std::clock();
   Procedure procedure(shipped_head(), quiet_options());
   for (const auto& [number, title] : procedure.plan()) {
     const StageResult s = procedure.run(number, title);
     const SolveReport& r = s.report;
-    std::printf("stage %d: residual %.1e, complementarity %.1e, violation %.1e mm, min J %.3f, "
-                "%d iterations, %d factorisations, %.2f s\n",
-                number, r.residual, r.complementarity, r.violation, r.smallest_jacobian,
-                r.iterations, r.factorisations, r.seconds);
+    std::printf(
+        "stage %d: residual %.1e, complementarity %.1e, violation %.1e mm, min J %.3f, "
+        "%d iterations, %d factorisations, %.2f s\n",
+        number, r.residual, r.complementarity, r.violation, r.smallest_jacobian, r.iterations,
+        r.factorisations, r.seconds);
     EXPECT_TRUE(r.converged()) << r.message;
-    EXPECT_LE(r.residual, 1e-8);          // of the largest force norm
+    EXPECT_LE(r.residual, 1e-8);  // of the largest force norm
     EXPECT_LE(r.complementarity, 1e-8);
     EXPECT_GT(r.smallest_jacobian, 0.0);
     for (const auto& [name, shift] : s.shifts) EXPECT_TRUE(shift.allFinite()) << name;
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  std::printf("all stages: %.1f s (limit %.0f)\n", seconds.count(), double(SECONDS_LIMIT));
-  EXPECT_LE(seconds.count(), SECONDS_LIMIT);
+  // The limit is for an idle machine: that of all threads together, whatever else is running.
+  const double work = double(std::clock() - start_of_work) / CLOCKS_PER_SEC;
+  std::printf("all stages: %.1f s, %.1f s of them at work (limit %.0f)\n", seconds.count(), work,
+              double(SECONDS_LIMIT));
+  EXPECT_LE(work, SECONDS_LIMIT);
 }
 
 // Frictionless and elastic: the state does not depend on the way to it.
@@ -38,8 +44,7 @@ TEST(Stages, SplitInTwoEndAtTheSameState) {
     twice.stepper.csf().set_lost_volume(twice.compartment(right), ml * mm3_per_ml);
     ASSERT_TRUE(twice.stepper.solve_static().converged());
   }
-  const double apart =
-      largest_motion(once.stepper.displacement() - twice.stepper.displacement());
+  const double apart = largest_motion(once.stepper.displacement() - twice.stepper.displacement());
   std::printf("20 mL at once and in two: %.1e mm apart\n", apart);
   EXPECT_LE(apart, 1e-6);
 }

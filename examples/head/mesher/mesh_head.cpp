@@ -69,7 +69,9 @@ class Body {
   }
 
   // A point near the middle of the body; CGAL shoots its first rays from there.
-  Kernel::Sphere_3 bounding_sphere() const { return Kernel::Sphere_3(Point(0, -15, 10), 130. * 130.); }
+  Kernel::Sphere_3 bounding_sphere() const {
+    return Kernel::Sphere_3(Point(0, -15, 10), 130. * 130.);
+  }
   const std::vector<Polyline>& polylines() const { return m_polylines; }
 
  private:
@@ -133,7 +135,8 @@ void write(const Complex& complex, const std::string& path) {
   std::map<Triangulation::Vertex_handle, int> index;
   std::vector<Point> nodes;
   std::vector<std::array<int, 5>> tets;
-  for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell) {
+  for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end();
+       ++cell) {
     std::array<int, 5> tet;
     for (int i = 0; i < 4; ++i) {
       const auto vertex = cell->vertex(i);
@@ -158,10 +161,10 @@ int run(char** argv, bool surface_only) {
   const double chord = std::atof(argv[5]), cell = std::atof(argv[6]);
 
   CGAL::get_default_random() = CGAL::Random(0);
-  Domain domain(params::function = [&](const Point& p) { return body.label(p); },
-                params::bounding_object = body.bounding_sphere(),
-                params::p_rng = &CGAL::get_default_random(),
-                params::relative_error_bound = 1e-7);
+  Domain domain(
+      params::function = [&](const Point& p) { return body.label(p); },
+      params::bounding_object = body.bounding_sphere(), params::p_rng = &CGAL::get_default_random(),
+      params::relative_error_bound = 1e-7);
   domain.add_features(body.polylines().begin(), body.polylines().end());
 
   Criteria criteria(params::edge_size = edge, params::facet_angle = 25, params::facet_size = facet,
@@ -181,7 +184,8 @@ int run(char** argv, bool surface_only) {
 
 int main(int argc, char** argv) {
   if (argc != 7 && argc != 8) {
-    std::cerr << "usage: mesh_head DOMAIN OUTPUT EDGE_SIZE FACET_SIZE FACET_DISTANCE CELL_SIZE [surface]\n";
+    std::cerr << "usage: mesh_head DOMAIN OUTPUT EDGE_SIZE FACET_SIZE FACET_DISTANCE CELL_SIZE "
+                 "[surface]\n";
     return 2;
   }
   try {

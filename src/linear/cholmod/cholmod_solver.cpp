@@ -19,7 +19,7 @@ class CholmodSolver final : public SpdSolver {
     m_common.nmethods = 1;
     m_common.method[0].ordering = CHOLMOD_NATURAL;
     m_common.postorder = 1;
-    m_common.try_catch = 1;       // no message handler of the host's is called
+    m_common.try_catch = 1;  // no message handler of the host's is called
     m_common.quick_return_if_not_posdef = 1;
   }
   ~CholmodSolver() override {

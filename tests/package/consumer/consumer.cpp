@@ -15,7 +15,7 @@ int main() {
   scene.balanced_reference = false;
   Stepper stepper(std::move(scene));
   const SolveReport report = stepper.solve_static();
-  std::printf("libbrainshift %s: %s, top at %.4f mm\n", BRAINSHIFT_VERSION, to_string(report.status),
-              stepper.positions()(3, 2));
+  std::printf("libbrainshift %s: %s, top at %.4f mm\n", BRAINSHIFT_VERSION,
+              to_string(report.status), stepper.positions()(3, 2));
   return report.converged() && stepper.displacement()(3, 2) < 0.0 ? 0 : 1;
 }

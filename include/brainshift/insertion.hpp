@@ -1,0 +1,51 @@
+// A device in tissue: where it was put, what holds it, and what a solve found.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "brainshift/beam_device.hpp"
+#include "brainshift/types.hpp"
+
+namespace brainshift {
+
+using DeviceId = std::int32_t;
+
+// A straight device lies from `tip` along `outward` (unit, from the tip to the wire end), in the
+// frame of the skull, in the brain as it is now.
+struct Placement {
+  Vec3 tip;
+  Vec3 outward;
+};
+
+// What holds a device, as arc lengths from its tip (mm).
+struct Hold {
+  // From here to the wire end the device stays where it was put: inside a cannula clamped by the
+  // stereotactic frame, or (0) all of it.
+  double rigid_from = std::numeric_limits<double>::infinity();
+  // Here the wire is fixed to the skull, free to turn unless `clamped`.
+  double anchor = std::numeric_limits<double>::infinity();
+  bool clamped = false;
+};
+
+struct TrackOptions {
+  double shear_bound = 0.0;    // kPa; friction along the device: bound * 2 pi r per length
+  double least_spacing = 1.0;  // mm; path points closer than this are one
+};
+
+// State of an inserted device. Forces act on the tissue (mN).
+struct DeviceState {
+  std::string name;
+  Points nodes;                  // N x 3, mm; node 0 is the tip
+  Points contact_centres;        // stimulating contacts, from the tip
+  Points path;                   // P x 3: where the material points of the track are now
+  Eigen::VectorXd path_arcs;     // P; arc length on the device; NaN where the tip is above the point
+  Points path_forces;            // P x 3
+  Vec3 anchor_force;             // mN, of the skull on the wire
+  double bow = 0.0;              // mm; largest distance from the chord tip - anchor
+  double bow_arc = 0.0;          // mm from the tip
+  Vec3 bow_direction;            // unit; zero without bow
+  double largest_tie_gap = 0.0;  // mm; what the transverse ties leave open
+};
+
+}  // namespace brainshift

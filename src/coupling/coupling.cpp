@@ -1,0 +1,115 @@
+#include "coupling/coupling.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+namespace brainshift {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// A direction across the tangent that varies smoothly: the section's own, made orthogonal to it.
+Vec3 across(const Vec3& tangent, const Mat3& frame) {
+  return (frame.col(1) - tangent.dot(frame.col(1)) * tangent).normalized();
+}
+
+}  // namespace
+
+Coupling::Coupling(const Mesh& mesh, const std::vector<InsertedDevice>& devices,
+                   const Points& start)
+    : m_mesh(mesh), m_devices(devices) {
+  for (const InsertedDevice& d : devices) {
+    m_held.push_back(d.held_dofs());
+    std::vector<double> arcs;
+    for (const PathPoint& p : d.path) {
+      const ClosestBeamPoint foot =
+          closest_point(d.beam, d.motion.beam, path_position(mesh, start, p));
+      arcs.push_back(foot.beyond == CurveEnd::none
+                         ? arc_of(d.beam, foot.place)
+                         : std::numeric_limits<double>::quiet_NaN());
+    }
+    m_start_arcs.push_back(std::move(arcs));
+  }
+}
+
+std::vector<DeviceMotion> Coupling::motions() const {
+  std::vector<DeviceMotion> all;
+  for (const InsertedDevice& d : m_devices) all.push_back(d.motion);
+  return all;
+}
+
+std::vector<CouplingRow> Coupling::rows(const Points& u,
+                                        const std::vector<DeviceMotion>& motions) const {
+  std::vector<CouplingRow> rows;
+  for (std::size_t d = 0; d < m_devices.size(); ++d) {
+    const InsertedDevice& device = m_devices[d];
+    const BeamState& state = motions[d].beam;
+    for (std::size_t p = 0; p < device.path.size(); ++p) {
+      const Vec3 x = path_position(m_mesh, u, device.path[p]);
+      const ClosestBeamPoint foot = closest_point(device.beam, state, x);
+      if (foot.beyond != CurveEnd::none) continue;   // free track below the tip
+      const Vec3 tangent = unit_tangent(device.beam, state, foot.place);
+      const Vec3 first = across(tangent, state.R[std::size_t(foot.place.element)]);
+      const Vec3 second = tangent.cross(first);
+      const Vec3 off = x - foot.position;
+      const double unbounded = std::numeric_limits<double>::infinity();
+      rows.push_back({d, p, 0, first, foot.place, first.dot(off), unbounded});
+      rows.push_back({d, p, 1, second, foot.place, second.dot(off), unbounded});
+      const double arc = arc_of(device.beam, foot.place), from = m_start_arcs[d][p];
+      const double bound = device.options.shear_bound * 2.0 * pi *
+                           device.beam.device().radius_at(arc) * device.path[p].length;
+      if (bound > 0.0) {
+        const double slip = std::isnan(from) ? 0.0 : arc - from;
+        rows.push_back({d, p, 2, tangent, foot.place, slip, bound});
+      }
+    }
+  }
+  return rows;
+}
+
+Eigen::VectorXd Coupling::tissue_gradient(const CouplingRow& row, const Blocks& blocks) const {
+  const PathPoint& point = m_devices[row.device].path[row.point];
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * blocks.count());
+  for (int a = 0; a < 4; ++a) {
+    const Index node = m_mesh.tets()(point.tet, a);
+    g.segment<3>(3 * blocks.block_of()[std::size_t(node)]) += point.weights[a] * row.direction;
+  }
+  return g;
+}
+
+Eigen::VectorXd Coupling::device_gradient(const CouplingRow& row,
+                                          const std::vector<DeviceMotion>& motions) const {
+  const InsertedDevice& device = m_devices[row.device];
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(device.beam.dof_count());
+  g.segment<12>(6 * row.place.element) =
+      -position_derivative(device.beam, motions[row.device].beam, row.place).transpose() *
+      row.direction;
+  hold(row.device, g);
+  return g;
+}
+
+void Coupling::add_forces(const std::vector<CouplingRow>& rows,
+                          const std::vector<DeviceMotion>& motions, Points& nodal,
+                          DeviceVectors& on_devices) const {
+  for (const CouplingRow& row : rows) {
+    const double multiplier = motions[row.device].multipliers[row.point][row.axis];
+    const PathPoint& point = m_devices[row.device].path[row.point];
+    for (int a = 0; a < 4; ++a) {
+      nodal.row(m_mesh.tets()(point.tet, a)) +=
+          (multiplier * point.weights[a] * row.direction).transpose();
+    }
+    on_devices[row.device] += multiplier * device_gradient(row, motions);
+  }
+}
+
+void Coupling::hold(std::size_t d, Eigen::VectorXd& v) const {
+  for (Index dof : m_held[d]) v[dof] = 0.0;
+}
+
+void Coupling::hold(std::size_t d, BlockTridiagonal& K) const {
+  for (Index dof : m_held[d]) K.fix(dof);
+}
+
+}  // namespace brainshift

@@ -1,0 +1,61 @@
+// Rows that couple tissue and devices at one state, and what they do to both.
+//
+// Each path point whose foot lies on the device has two rows across it,
+//   n_k . (x_point - c) = 0,   k = 1, 2,   c the closest point of the centreline,
+// and one along it with a bounded multiplier where there is friction:
+//   0 = slip since the last solve,  |multiplier| <= shear bound * 2 pi r * length.
+// To first order at a closed tie the foot does not move along (t . (x - c) = 0), so the gradient is
+// n_k on the tissue point and -n_k dc/dq on the device.
+#pragma once
+
+#include <vector>
+
+#include "coupling/inserted_device.hpp"
+#include "stepper/blocks.hpp"
+
+namespace brainshift {
+
+struct CouplingRow {
+  std::size_t device, point;
+  int axis;              // 0, 1: across; 2: along
+  Vec3 direction;
+  BeamPoint place;
+  double gap;            // mm; across: distance still open; along: slip since the last solve
+  double bound;          // mN on |multiplier|; infinite across
+};
+
+using DeviceVectors = std::vector<Eigen::VectorXd>;   // 6N per device
+
+class Coupling {
+ public:
+  Coupling(const Mesh& mesh, const std::vector<InsertedDevice>& devices, const Points& start);
+
+  bool empty() const { return m_devices.empty(); }
+  const std::vector<InsertedDevice>& devices() const { return m_devices; }
+  std::vector<DeviceMotion> motions() const;
+
+  // Rows at a state.
+  std::vector<CouplingRow> rows(const Points& u, const std::vector<DeviceMotion>& motions) const;
+  // Forces of the rows with the multipliers in `motions`: on mesh nodes (N x 3, added), and on the
+  // dofs of each device (added).
+  void add_forces(const std::vector<CouplingRow>& rows, const std::vector<DeviceMotion>& motions,
+                  Points& nodal, DeviceVectors& on_devices) const;
+
+  // Gradient of a row: on blocks (3 x count), and on the dofs of its device.
+  Eigen::VectorXd tissue_gradient(const CouplingRow& row, const Blocks& blocks) const;
+  Eigen::VectorXd device_gradient(const CouplingRow& row,
+                                  const std::vector<DeviceMotion>& motions) const;
+
+  // Takes the held dofs out of a vector on device d.
+  void hold(std::size_t d, Eigen::VectorXd& v) const;
+  void hold(std::size_t d, BlockTridiagonal& K) const;
+
+ private:
+  const Mesh& m_mesh;
+  const std::vector<InsertedDevice>& m_devices;
+  std::vector<std::vector<Index>> m_held;
+  // Where each path point stood along its device when the solve began, for slip.
+  std::vector<std::vector<double>> m_start_arcs;
+};
+
+}  // namespace brainshift

@@ -1,0 +1,43 @@
+// A device on its track: the beam, what holds it, the material points it is tied to.
+#pragma once
+
+#include <vector>
+
+#include "beam/beam.hpp"
+#include "beam/centreline.hpp"
+#include "brainshift/insertion.hpp"
+#include "coupling/track.hpp"
+
+namespace brainshift {
+
+// What of a device changes in a solve.
+struct DeviceMotion {
+  BeamState beam;
+  // Per path point: forces (mN) of the device on the tissue along two fixed directions across and
+  // one along the device, as multipliers of its rows.
+  std::vector<Vec3> multipliers;
+};
+
+struct InsertedDevice {
+  DeviceId id = -1;
+  Beam beam;
+  Placement placement;
+  Hold hold;
+  TrackOptions options;
+  std::vector<PathPoint> path;
+  DeviceMotion motion;   // the last good one
+
+  // Dofs (6 per node) that the hold takes away.
+  std::vector<Index> held_dofs() const;
+  bool held_whole() const { return hold.rigid_from <= 0.0; }
+};
+
+// Straight along the placement, unloaded.
+InsertedDevice place_device(DeviceId id, const BeamDevice& device, const Placement& placement,
+                            const Hold& hold, const TrackOptions& options,
+                            std::vector<PathPoint> path);
+
+// Position of a path point for displacements u.
+Vec3 path_position(const Mesh& mesh, const Points& u, const PathPoint& point);
+
+}  // namespace brainshift

@@ -1,0 +1,107 @@
+#include "coupling/track.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <Eigen/LU>
+
+#include "brainshift/error.hpp"
+
+namespace brainshift {
+namespace {
+
+// Barycentric weights along the line are linear: weights(s) = at_tip + s * slope.
+struct Crossing {
+  double from, to;   // mm from the tip; empty if from >= to
+  Eigen::Vector4d at_tip, slope;
+};
+
+Crossing cross_tet(const Mesh& mesh, const Points& x, Index t, const Vec3& tip,
+                   const Vec3& outward, double length) {
+  Eigen::Matrix4d corners;   // columns: (position, 1)
+  for (int a = 0; a < 4; ++a) {
+    corners.col(a) << x.row(mesh.tets()(t, a)).transpose(), 1.0;
+  }
+  const Eigen::Matrix4d inverse = corners.inverse();
+  Crossing c{0.0, length, inverse * Eigen::Vector4d(tip.x(), tip.y(), tip.z(), 1.0),
+             inverse * Eigen::Vector4d(outward.x(), outward.y(), outward.z(), 0.0)};
+  for (int a = 0; a < 4; ++a) {
+    if (c.slope[a] == 0.0) {
+      if (c.at_tip[a] < 0.0) c.to = -1.0;
+      continue;
+    }
+    const double s = -c.at_tip[a] / c.slope[a];
+    if (c.slope[a] > 0.0) {
+      c.from = std::max(c.from, s);
+    } else {
+      c.to = std::min(c.to, s);
+    }
+  }
+  return c;
+}
+
+// Whether the line can meet the tet at all: distance of its centre against its size.
+bool may_cross(const Mesh& mesh, const Points& x, Index t, const Vec3& tip, const Vec3& outward) {
+  Vec3 centre = Vec3::Zero();
+  for (int a = 0; a < 4; ++a) centre += 0.25 * x.row(mesh.tets()(t, a)).transpose();
+  double reach = 0.0;
+  for (int a = 0; a < 4; ++a) {
+    reach = std::max(reach, (x.row(mesh.tets()(t, a)).transpose() - centre).squaredNorm());
+  }
+  const Vec3 off = centre - tip;
+  return (off - off.dot(outward) * outward).squaredNorm() <= reach;
+}
+
+}  // namespace
+
+std::vector<PathPoint> cut_track(const Mesh& mesh, const Points& positions, const Vec3& tip,
+                                 const Vec3& outward, double length, double least_spacing) {
+  struct Piece {
+    Index tet;
+    Crossing crossing;
+  };
+  std::vector<Piece> pieces;
+  const double tiny = 1e-9 * mesh.diameter();
+  for (Index t = 0; t < mesh.tet_count(); ++t) {
+    if (!may_cross(mesh, positions, t, tip, outward)) continue;
+    const Crossing c = cross_tet(mesh, positions, t, tip, outward, length);
+    if (c.to - c.from > tiny) pieces.push_back({t, c});
+  }
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+    return a.crossing.from != b.crossing.from ? a.crossing.from < b.crossing.from : a.tet < b.tet;
+  });
+  if (pieces.empty() || pieces.front().crossing.from > tiny) {
+    throw Error(ErrorCode::invalid_argument,
+                "the tip (" + std::to_string(tip.x()) + " " + std::to_string(tip.y()) + " " +
+                    std::to_string(tip.z()) + ") of the device is not in tissue");
+  }
+  std::vector<PathPoint> path;
+  double reached = 0.0;
+  for (const Piece& piece : pieces) {
+    const Crossing& c = piece.crossing;
+    if (c.from > reached + 1e-6 * mesh.diameter()) {
+      throw Error(ErrorCode::invalid_argument,
+                  "the track leaves the tissue " + std::to_string(reached) +
+                      " mm from the tip and enters it again at " + std::to_string(c.from) + " mm");
+    }
+    reached = std::max(reached, c.to);
+    const double before = path.empty() ? 0.0 : path.back().arc;
+    if (c.to - before < least_spacing || c.to >= length) continue;
+    Eigen::Vector4d weights = (c.at_tip + c.to * c.slope).cwiseMax(0.0);
+    weights /= weights.sum();
+    path.push_back({piece.tet, weights, c.to, 0.0});
+  }
+  if (path.empty()) {
+    throw Error(ErrorCode::invalid_argument, "the track crosses no face of the mesh");
+  }
+  // Each point stands for the track half-way to its neighbours.
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double low = i == 0 ? 0.0 : 0.5 * (path[i - 1].arc + path[i].arc);
+    const double high = i + 1 == path.size() ? reached : 0.5 * (path[i].arc + path[i + 1].arc);
+    path[i].length = high - low;
+  }
+  return path;
+}
+
+}  // namespace brainshift

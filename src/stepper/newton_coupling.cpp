@@ -1,0 +1,219 @@
+// The part of Newton's method that knows devices: they are factored on their own and meet the tissue
+// in the space of the coupling rows, as one mixed complementarity problem.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "brainshift/error.hpp"
+#include "brainshift/mcp.hpp"
+#include "stepper/newton.hpp"
+
+namespace brainshift {
+
+Offset operator*(double factor, const Offset& offset) {
+  Offset result = offset;
+  result.tissue *= factor;
+  for (Eigen::VectorXd& v : result.devices) v *= factor;
+  return result;
+}
+
+Offset Newton::no_offset() const {
+  Offset none{Eigen::VectorXd::Zero(3 * m_eq.blocks().count()), {}};
+  for (const InsertedDevice& d : m_coupling.devices()) {
+    none.devices.push_back(Eigen::VectorXd::Zero(d.beam.dof_count()));
+  }
+  return none;
+}
+
+void Newton::refresh_devices() {
+  m_device_load.clear();
+  for (std::size_t d = 0; d < m_coupling.devices().size(); ++d) {
+    const Beam& beam = m_coupling.devices()[d].beam;
+    Eigen::VectorXd gradient;
+    BlockTridiagonal unused(beam.node_count());
+    beam.tangent(m_state.devices[d].beam, gradient, unused);
+    m_device_load.push_back(m_offset.devices[d] - gradient);
+    m_coupling.hold(d, m_device_load.back());
+  }
+  m_couplings = m_coupling.rows(m_state.u, m_state.devices);
+}
+
+// Tangents of the devices, with a proximal term: a wire that only its anchor holds may turn about it
+// freely until the rows are counted in. The term is far below the stiffness of tissue, or Newton
+// would crawl, and not too far below the device's own, or rounding would drown what it divides.
+bool Newton::factorise_devices() {
+  m_device_factors.resize(m_coupling.devices().size());
+  for (std::size_t d = 0; d < m_device_factors.size(); ++d) {
+    const Beam& beam = m_coupling.devices()[d].beam;
+    const double size = beam.device().length() / double(beam.element_count());
+    double bending = 0.0;
+    for (Index e = 0; e < beam.element_count(); ++e) {
+      bending = std::max(bending, beam.device().section(e).bending_2);
+    }
+    double shift = std::min(1e-3 * m_cache.stiffness.mean_diagonal(),
+                            2e-6 * bending / (size * size * size));
+    for (int attempt = 0;; ++attempt) {
+      Eigen::VectorXd gradient;
+      BlockTridiagonal K(beam.node_count());
+      beam.tangent(m_state.devices[d].beam, gradient, K);
+      for (Index i = 0; i < beam.node_count(); ++i) {
+        K.diagonal(i).diagonal().head<3>().array() += shift;
+        K.diagonal(i).diagonal().tail<3>().array() += shift * size * size;
+      }
+      m_coupling.hold(d, K);
+      if (m_device_factors[d].factorise(K) && m_device_factors[d].positive()) break;
+      if (attempt == 30) return false;
+      shift *= 10.0;
+    }
+  }
+  return true;
+}
+
+// W multiplier + (gap + rows . free step) = w,  W = C A^-1 C^T + D B^-1 D^T.
+void Newton::couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step& step,
+                    Eigen::VectorXd& pushed) {
+  const auto count = Eigen::Index(m_couplings.size());
+  Eigen::MatrixXd forces(rhs.size(), 1 + count);
+  forces.col(0) = rhs;
+  for (Eigen::Index r = 0; r < count; ++r) {
+    forces.col(1 + r) =
+        m_coupling.tissue_gradient(m_couplings[std::size_t(r)], m_eq.blocks());
+  }
+  const Eigen::MatrixXd moved = solve_tissue(reduction, forces);
+  const Eigen::VectorXd free_dx = moved.col(0) + reduction.particular();
+  const auto C = forces.rightCols(count);
+  const auto Z = moved.rightCols(count);
+  Eigen::MatrixXd W = C.transpose() * Z;
+  Eigen::VectorXd q = C.transpose() * free_dx;
+  std::vector<Eigen::MatrixXd> D, Y;
+  DeviceVectors free_dq;
+  for (std::size_t d = 0; d < m_device_load.size(); ++d) {
+    D.emplace_back(Eigen::MatrixXd::Zero(m_device_load[d].size(), count));
+    for (Eigen::Index r = 0; r < count; ++r) {
+      const CouplingRow& row = m_couplings[std::size_t(r)];
+      if (row.device == d) D.back().col(r) = m_coupling.device_gradient(row, m_state.devices);
+    }
+    Y.push_back(D.back());
+    m_device_factors[d].solve(Y.back());
+    Eigen::MatrixXd free = m_device_load[d];
+    m_device_factors[d].solve(free);
+    free_dq.emplace_back(free.col(0));
+    W += D.back().transpose() * Y.back();
+    q += D.back().transpose() * free_dq.back();
+  }
+  Eigen::VectorXd lower(count), upper(count);
+  for (Eigen::Index r = 0; r < count; ++r) {
+    q[r] += m_couplings[std::size_t(r)].gap;
+    upper[r] = m_couplings[std::size_t(r)].bound;
+    lower[r] = -upper[r];
+  }
+  step.coupling.resize(count);
+  if (count > 0) {
+    const McpSolution found = solve_mcp(W, q, lower, upper);
+    step.coupling = found.z;
+    if (found.report.status != McpStatus::solved) step.coupling.setConstant(std::nan(""));
+  }
+  step.dx = free_dx + Z * step.coupling;
+  pushed += C * step.coupling;
+  for (std::size_t d = 0; d < free_dq.size(); ++d) {
+    step.dq.push_back(free_dq[d] + Y[d] * step.coupling);
+  }
+}
+
+// First-order fall of the merit E + sum bound |slip| + weight * sum |open tie|.
+void Newton::predict(Step& step) const {
+  step.predicted = step.slope;
+  for (Eigen::Index r = 0; r < step.coupling.size(); ++r) {
+    const CouplingRow& row = m_couplings[std::size_t(r)];
+    if (row.axis < 2) step.weight = std::max(step.weight, 2.0 * std::abs(step.coupling[r]));
+  }
+  for (Eigen::Index r = 0; r < step.coupling.size(); ++r) {
+    const CouplingRow& row = m_couplings[std::size_t(r)];
+    if (row.axis < 2) {
+      step.predicted += step.weight * std::abs(row.gap);
+      continue;
+    }
+    double change =
+        m_coupling.tissue_gradient(row, m_eq.blocks()).dot(step.dx) +
+        m_coupling.device_gradient(row, m_state.devices).dot(step.dq[row.device]);
+    step.predicted -= row.bound * (std::abs(row.gap + change) - std::abs(row.gap));
+  }
+}
+
+double Newton::merit_of_rows(const MechanicalState& state, double weight) const {
+  if (m_coupling.empty()) return 0.0;
+  double sum = 0.0;
+  for (const CouplingRow& row : m_coupling.rows(state.u, state.devices)) {
+    sum += (row.axis < 2 ? weight : row.bound) * std::abs(row.gap);
+  }
+  return sum;
+}
+
+double Newton::device_energy(const std::vector<DeviceMotion>& motions) const {
+  double sum = 0.0;
+  for (std::size_t d = 0; d < motions.size(); ++d) {
+    sum += m_coupling.devices()[d].beam.energy(motions[d].beam);
+  }
+  return sum;
+}
+
+void Newton::move_devices(const Step& step, double part, MechanicalState& next) const {
+  next.devices = m_state.devices;
+  for (std::size_t d = 0; d < step.dq.size(); ++d) {
+    m_coupling.devices()[d].beam.update(next.devices[d].beam, part * step.dq[d]);
+  }
+  for (Eigen::Index r = 0; r < step.coupling.size(); ++r) {
+    const CouplingRow& row = m_couplings[std::size_t(r)];
+    double& multiplier = next.devices[row.device].multipliers[row.point][row.axis];
+    multiplier += part * (step.coupling[r] - multiplier);
+  }
+}
+
+Eigen::VectorXd Newton::coupling_force() const {
+  Points nodal = Points::Zero(m_eq.mesh().node_count(), 3);
+  DeviceVectors unused = no_offset().devices;
+  m_coupling.add_forces(m_couplings, m_state.devices, nodal, unused);
+  return m_eq.blocks().gather(nodal);
+}
+
+DeviceVectors Newton::coupled_device_load() const {
+  Points unused = Points::Zero(m_eq.mesh().node_count(), 3);
+  DeviceVectors load = m_device_load;
+  m_coupling.add_forces(m_couplings, m_state.devices, unused, load);
+  return load;
+}
+
+// Largest force out of balance on a device, beyond what the rounding of positions makes of its axial
+// stiffness; moments count as forces on an arm of one element.
+double Newton::device_residual() const {
+  double largest = 0.0;
+  const DeviceVectors load = coupled_device_load();
+  for (std::size_t d = 0; d < load.size(); ++d) {
+    const Beam& beam = m_coupling.devices()[d].beam;
+    const double arm = beam.device().length() / double(beam.element_count());
+    double stiffest = 0.0, worst = 0.0;
+    for (Index e = 0; e < beam.element_count(); ++e) {
+      stiffest = std::max(stiffest, beam.device().section(e).axial / arm);
+    }
+    for (Index i = 0; i < beam.node_count(); ++i) {
+      worst = std::max(worst, load[d].segment<3>(6 * i).cwiseAbs().maxCoeff());
+      worst = std::max(worst, load[d].segment<3>(6 * i + 3).cwiseAbs().maxCoeff() / arm);
+    }
+    const double size = m_state.devices[d].beam.x.cwiseAbs().maxCoeff();
+    const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * size * stiffest;
+    largest = std::max(largest, worst - rounding);
+  }
+  return largest;
+}
+
+void Newton::measure_coupling() {
+  m_report.tie_gap = 0.0;
+  m_report.coupling_rows = Index(m_couplings.size());
+  for (const CouplingRow& row : m_couplings) {
+    const double multiplier = m_state.devices[row.device].multipliers[row.point][row.axis];
+    const bool holds = std::abs(multiplier) < (1.0 - 1e-9) * row.bound;
+    if (row.axis < 2 || holds) m_report.tie_gap = std::max(m_report.tie_gap, std::abs(row.gap));
+  }
+}
+
+}  // namespace brainshift

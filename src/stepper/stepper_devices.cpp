@@ -1,0 +1,110 @@
+// Stepper: devices in and out, and what became of them.
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "brainshift/error.hpp"
+#include "coupling/coupling.hpp"
+#include "stepper/stepper_impl.hpp"
+
+namespace brainshift {
+namespace {
+
+void check_hold(const Hold& hold) {
+  const auto bad = [](double arc) { return std::isnan(arc) || arc < 0.0; };
+  if (bad(hold.rigid_from) || bad(hold.anchor)) {
+    throw Error(ErrorCode::invalid_argument, "Hold: an arc length is negative or not a number");
+  }
+  if (std::isinf(hold.rigid_from) && std::isinf(hold.anchor)) {
+    throw Error(ErrorCode::invalid_argument,
+                "Hold: neither rigid_from nor anchor is given, so nothing holds the device");
+  }
+}
+
+}  // namespace
+
+DeviceId Stepper::insert(const BeamDevice& device, const Placement& placement, const Hold& hold,
+                         const TrackOptions& options) {
+  check_hold(hold);
+  if (!(options.shear_bound >= 0.0) || !(options.least_spacing > 0.0)) {
+    throw Error(ErrorCode::invalid_argument,
+                "TrackOptions: shear_bound must be at least 0 and least_spacing positive");
+  }
+  if (!placement.tip.allFinite() || !(std::abs(placement.outward.norm() - 1.0) <= 1e-6)) {
+    throw Error(ErrorCode::invalid_argument,
+                "Placement: the tip must be finite and outward of unit length");
+  }
+  Impl::State& state = m_impl->m_state;
+  const Vec3 outward = placement.outward.normalized();
+  std::vector<PathPoint> path = cut_track(m_impl->m_mesh, positions(), placement.tip, outward,
+                                          device.length(), options.least_spacing);
+  state.devices.push_back(place_device(state.next_device, device, {placement.tip, outward}, hold,
+                                       options, std::move(path)));
+  return state.next_device++;
+}
+
+void Stepper::exchange(DeviceId id, const BeamDevice& device, const Hold& hold) {
+  check_hold(hold);
+  InsertedDevice& old = m_impl->device(id);
+  if (!old.held_whole()) {
+    throw Error(ErrorCode::invalid_argument,
+                "device " + std::to_string(id) + " is not held whole and cannot be exchanged");
+  }
+  InsertedDevice next = place_device(id, device, old.placement, hold, old.options, old.path);
+  next.motion.multipliers = old.motion.multipliers;
+  old = std::move(next);
+}
+
+void Stepper::set_hold(DeviceId id, const Hold& hold) {
+  check_hold(hold);
+  m_impl->device(id).hold = hold;
+}
+
+void Stepper::remove(DeviceId id) {
+  const InsertedDevice& device = m_impl->device(id);
+  auto& devices = m_impl->m_state.devices;
+  devices.erase(devices.begin() + (&device - devices.data()));
+}
+
+DeviceState Stepper::device(DeviceId id) const {
+  const InsertedDevice& d = m_impl->device(id);
+  const Points& u = m_impl->m_state.u;
+  const Mesh& mesh = m_impl->m_mesh;
+  const BeamState& beam = d.motion.beam;
+  DeviceState s;
+  s.name = d.beam.device().name();
+  s.nodes = beam.x;
+  const auto& contacts = d.beam.device().contacts();
+  s.contact_centres.resize(Eigen::Index(contacts.size()), 3);
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    s.contact_centres.row(Eigen::Index(c)) =
+        position(d.beam, beam, place_at(d.beam, contacts[c].centre())).transpose();
+  }
+  const auto points = Eigen::Index(d.path.size());
+  s.path.resize(points, 3);
+  s.path_arcs.setConstant(points, std::numeric_limits<double>::quiet_NaN());
+  s.path_forces.setZero(points, 3);
+  for (Eigen::Index p = 0; p < points; ++p) {
+    s.path.row(p) = path_position(mesh, u, d.path[std::size_t(p)]).transpose();
+  }
+  const Coupling coupling(mesh, m_impl->m_state.devices, u);
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(d.beam.dof_count());
+  for (const CouplingRow& row : coupling.rows(u, coupling.motions())) {
+    if (coupling.devices()[row.device].id != id) continue;
+    const auto p = Eigen::Index(row.point);
+    const double multiplier = d.motion.multipliers[row.point][row.axis];
+    s.path_arcs[p] = arc_of(d.beam, row.place);
+    s.path_forces.row(p) += (multiplier * row.direction).transpose();
+    if (row.axis < 2) s.largest_tie_gap = std::max(s.largest_tie_gap, std::abs(row.gap));
+  }
+  // The skull holds what tissue does not: all coupling forces add up to the anchor's.
+  s.anchor_force = s.path_forces.colwise().sum().transpose();
+  const double wire = std::isfinite(d.hold.anchor) ? d.hold.anchor : d.beam.device().length();
+  const Bow bent = bow(d.beam, beam, 0.0, std::min(wire, d.beam.device().length()));
+  s.bow = bent.size;
+  s.bow_arc = bent.arc;
+  s.bow_direction = bent.direction;
+  return s;
+}
+
+}  // namespace brainshift

@@ -1,0 +1,123 @@
+// What a Stepper holds.
+#pragma once
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "brainshift/error.hpp"
+#include "brainshift/stepper.hpp"
+#include "coupling/coupling.hpp"
+#include "stepper/equilibrium.hpp"
+#include "stepper/newton.hpp"
+
+namespace brainshift {
+
+struct Settings {
+  std::optional<Csf> csf;
+  ConstraintSet constraints;
+  Vec3 gravity = Vec3::Zero();
+};
+
+// What snapshot() keeps. Multipliers by group, so that groups may come and go.
+class Stepper::Snapshot {
+ public:
+  Points u;
+  std::map<ConstraintId, Eigen::VectorXd> multipliers;
+  std::vector<InsertedDevice> devices;
+  DeviceId next_device = 0;
+  Settings wanted;   // by the host, for the next solve
+  Settings solved;   // those u is in balance with
+};
+
+class Stepper::Impl {
+ public:
+  using State = Snapshot;
+
+  Impl(Scene scene, StepperOptions options)
+      : m_mesh(scene.mesh), m_options(std::move(options)), m_equilibrium(scene) {
+    check_options();
+    m_state.wanted = {std::move(scene.csf), std::move(scene.constraints), scene.gravity};
+    m_state.solved = m_state.wanted;
+    m_state.u.setZero(m_mesh.node_count(), 3);
+    refuse_penetration();
+  }
+
+  void check_options() const {
+    const auto require = [](bool good, const char* what) {
+      if (!good) throw Error(ErrorCode::invalid_argument, std::string("StepperOptions: ") + what);
+    };
+    const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
+    require(positive(m_options.residual_tolerance), "residual_tolerance is not positive");
+    require(positive(m_options.complementarity_tolerance),
+            "complementarity_tolerance is not positive");
+    require(positive(m_options.correction_tolerance), "correction_tolerance is not positive");
+    require(positive(m_options.smallest_load_step), "smallest_load_step is not positive");
+    require(m_options.initial_penetration >= 0.0, "initial_penetration is negative");
+    require(m_options.max_iterations > 0, "max_iterations is not positive");
+  }
+
+  void refuse_penetration() const {
+    const ContactRows& contacts = m_equilibrium.contacts();
+    const double allowed = m_options.initial_penetration * m_mesh.diameter();
+    for (std::size_t r = 0; r < contacts.size(); ++r) {
+      const double gap = contacts.sample(r, m_state.u).gap;
+      if (gap < -allowed) {
+        throw Error(ErrorCode::initial_penetration,
+                    "constraint '" + contacts.group_of(r).name + "': node " +
+                        std::to_string(contacts.mesh_node(r)) + " starts " + std::to_string(-gap) +
+                        " mm inside the obstacle");
+      }
+    }
+  }
+
+  SolveReport solve_static();
+
+  static void configure(Equilibrium& equilibrium, const Settings& settings) {
+    equilibrium.configure(settings.constraints, settings.csf, settings.gravity);
+  }
+
+  MechanicalState mechanical(const ContactRows& contacts) const {
+    MechanicalState m{m_state.u, std::vector<double>(contacts.size(), 0.0), {}};
+    for (const InsertedDevice& d : m_state.devices) m.devices.push_back(d.motion);
+    for (std::size_t r = 0; r < m.multipliers.size(); ++r) {
+      const auto found = m_state.multipliers.find(contacts.group_of(r).id);
+      if (found == m_state.multipliers.end()) continue;
+      m.multipliers[r] = found->second[Eigen::Index(contacts.row(r).item)];
+    }
+    return m;
+  }
+
+  // The present state with what a solve has found; made apart, so that a failure changes nothing.
+  Snapshot solved(const MechanicalState& m, const ContactRows& contacts) const {
+    Snapshot next = m_state;
+    next.u = m.u;
+    for (std::size_t d = 0; d < m.devices.size(); ++d) next.devices[d].motion = m.devices[d];
+    next.multipliers.clear();
+    next.solved = next.wanted;
+    for (std::size_t r = 0; r < m.multipliers.size(); ++r) {
+      const ConstraintGroup& group = contacts.group_of(r);
+      Eigen::VectorXd& values = next.multipliers[group.id];
+      if (values.size() == 0) values.setZero(Eigen::Index(group.nodes.size()));
+      values[Eigen::Index(contacts.row(r).item)] = m.multipliers[r];
+    }
+    return next;
+  }
+
+  InsertedDevice& device(DeviceId id) {
+    for (InsertedDevice& d : m_state.devices) {
+      if (d.id == id) return d;
+    }
+    throw Error(ErrorCode::invalid_argument, "there is no device with the id " + std::to_string(id));
+  }
+
+  Mesh m_mesh;
+  StepperOptions m_options;
+  Equilibrium m_equilibrium;
+  Snapshot m_state;
+  FactorCache m_cache;
+};
+
+}  // namespace brainshift

@@ -1,0 +1,145 @@
+// Devices in a block of tissue that leans under gravity.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "brainshift/brainshift.hpp"
+#include "support/expect_error.hpp"
+#include "support/shapes.hpp"
+
+namespace brainshift {
+namespace {
+
+using test::expect_error;
+using test::make_box;
+
+const Vec3 tip(19.3, 20.7, 22.1), outward = Vec3(0.1, 0.05, 1.0).normalized();
+constexpr double wire = 50.0;   // mm from the tip: above the block, where the skull would be
+
+// Block 40 x 40 x 60 mm, held at its base, leaning towards +x under a part of gravity.
+Scene leaning_block(double part = 0.02) {
+  const auto box = make_box({40.0, 40.0, 60.0}, 4, 4, 6);
+  const Mesh mesh(box.points, box.tets);
+  Scene scene{mesh, {{0, Material(Law::corotational, 6.0, 0.45, 1.04e-6)}}, {part * 9810.0, 0, 0}};
+  scene.balanced_reference = false;
+  Indices base;
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if (mesh.nodes()(i, 2) == 0.0) base.push_back(i);
+  }
+  scene.constraints.fix("base", base);
+  return scene;
+}
+
+BeamDevice lead(double bending = 5000.0) {   // mN mm^2
+  DeviceOptions options;
+  options.bending = bending;
+  return make_device("3389", 55.0, options);
+}
+
+Hold whole() { return {0.0, wire, false}; }
+Hold wire_only() { return {std::numeric_limits<double>::infinity(), wire, false}; }
+
+double largest(const Points& p) { return p.rowwise().norm().maxCoeff(); }
+
+TEST(Devices, InsertedAlongTheirLineMoveNothing) {
+  Stepper stepper(leaning_block());
+  ASSERT_TRUE(stepper.solve_static().converged());
+  const Points before = stepper.displacement();
+  EXPECT_GT(largest(before), 0.3);
+  const DeviceId id = stepper.insert(lead(), {tip, outward}, wire_only());
+  const SolveReport report = stepper.solve_static();
+  ASSERT_TRUE(report.converged()) << report.message;
+  EXPECT_LE(largest(stepper.displacement() - before), 1e-9);
+  const DeviceState d = stepper.device(id);
+  EXPECT_GE(d.path.rows(), 5);
+  EXPECT_LE(largest(d.path_forces), 1e-6);   // mN, beside a weight of 1000 mN
+  EXPECT_LE(d.bow, 1e-9);
+}
+
+TEST(Devices, ACannulaHoldsItsTrackAndItsRemovalReleasesIt) {
+  Stepper with(leaning_block(0.01)), without(leaning_block(0.01));
+  for (Stepper* s : {&with, &without}) ASSERT_TRUE(s->solve_static().converged());
+  const DeviceId id = with.insert(make_device("cannula", 55.0), {tip, outward}, whole());
+  for (Stepper* s : {&with, &without}) {
+    s->set_gravity({0.02 * 9810.0, 0.0, 0.0});
+    ASSERT_TRUE(s->solve_static().converged());
+  }
+  const DeviceState d = with.device(id);
+  for (Eigen::Index p = 0; p < d.path.rows(); ++p) {
+    const Vec3 off = d.path.row(p).transpose() - tip;
+    EXPECT_LE((off - off.dot(outward) * outward).norm(), 1e-8) << p;   // still on the line
+  }
+  EXPECT_LT(d.path_forces.col(0).sum(), -1.0);   // it pushes against the lean
+  EXPECT_GT(largest(with.displacement() - without.displacement()), 0.1);
+  with.remove(id);
+  ASSERT_TRUE(with.solve_static().converged());
+  EXPECT_LE(largest(with.displacement() - without.displacement()), 1e-6);
+}
+
+TEST(Devices, ALeadBendsWhenItsCannulaLeavesAndLeastWhenStiffest) {
+  double softer = std::numeric_limits<double>::infinity();
+  for (double bending : {1e1, 1e3, 5e3, 1e5, 1e7}) {
+    Stepper stepper(leaning_block(0.01));
+    ASSERT_TRUE(stepper.solve_static().converged());
+    const DeviceId id = stepper.insert(make_device("cannula", 55.0), {tip, outward}, whole());
+    stepper.exchange(id, lead(bending), whole());
+    stepper.set_gravity({0.02 * 9810.0, 0.0, 0.0});
+    ASSERT_TRUE(stepper.solve_static().converged());
+    EXPECT_LE(stepper.device(id).bow, 1e-9);
+    stepper.set_hold(id, wire_only());
+    const SolveReport report = stepper.solve_static();
+    ASSERT_TRUE(report.converged()) << report.message;
+    const DeviceState d = stepper.device(id);
+    EXPECT_LE(d.largest_tie_gap, 1e-8);
+    EXPECT_GT(d.bow, 0.0);
+    EXPECT_LT(d.bow, softer);
+    softer = d.bow;
+  }
+}
+
+// A lead without stiffness leaves the tissue as it would be alone.
+TEST(Devices, ALeadWithoutStiffnessLeavesTheTissueUndisturbed) {
+  Stepper with(leaning_block(0.01)), without(leaning_block(0.01));
+  for (Stepper* s : {&with, &without}) ASSERT_TRUE(s->solve_static().converged());
+  with.insert(lead(1.0), {tip, outward}, wire_only());
+  for (Stepper* s : {&with, &without}) {
+    s->set_gravity({0.02 * 9810.0, 0.0, 0.0});
+    ASSERT_TRUE(s->solve_static().converged());
+  }
+  // What is left is the wire's pull on the chord to its anchor, of the order of the bow squared.
+  EXPECT_LE(largest(with.displacement() - without.displacement()),
+            0.02 * largest(without.displacement()));
+}
+
+TEST(Devices, BranchesFromOneSnapshotAreTheSameBits) {
+  Stepper stepper(leaning_block(0.01));
+  ASSERT_TRUE(stepper.solve_static().converged());
+  const DeviceId id = stepper.insert(lead(), {tip, outward}, wire_only());
+  ASSERT_TRUE(stepper.solve_static().converged());
+  const auto before = stepper.snapshot();
+  Points found[2];
+  for (Points& nodes : found) {
+    stepper.restore(before);
+    stepper.set_gravity({0.02 * 9810.0, 0.0, 0.0});
+    ASSERT_TRUE(stepper.solve_static().converged());
+    nodes = stepper.device(id).nodes;
+  }
+  EXPECT_EQ(found[0], found[1]);
+}
+
+TEST(Devices, AreRefusedWhereTheyCannotBe) {
+  Stepper stepper(leaning_block());
+  expect_error(ErrorCode::invalid_argument, {"tip", "not in tissue"},
+               [&] { stepper.insert(lead(), {Vec3(100, 0, 0), outward}, wire_only()); });
+  expect_error(ErrorCode::invalid_argument, {"nothing holds"},
+               [&] { stepper.insert(lead(), {tip, outward}, Hold{}); });
+  expect_error(ErrorCode::invalid_argument, {"unit length"},
+               [&] { stepper.insert(lead(), {tip, 2.0 * outward}, wire_only()); });
+  expect_error(ErrorCode::invalid_argument, {"id 7"}, [&] { stepper.remove(7); });
+  const DeviceId id = stepper.insert(lead(), {tip, outward}, wire_only());
+  expect_error(ErrorCode::invalid_argument, {"not held whole"},
+               [&] { stepper.exchange(id, lead(), whole()); });
+}
+
+}  // namespace
+}  // namespace brainshift

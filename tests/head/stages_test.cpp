@@ -28,11 +28,11 @@ TEST(Stages, EndInBalanceAndInTime) {
     for (const auto& [name, shift] : s.shifts) EXPECT_TRUE(shift.allFinite()) << name;
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  // The limit is for an idle machine: that of all threads together, whatever else is running.
+  // Work of all threads beside it: far less than wall clock means a busy machine.
   const double work = double(std::clock() - start_of_work) / CLOCKS_PER_SEC;
   std::printf("all stages: %.1f s, %.1f s of them at work (limit %.0f)\n", seconds.count(), work,
               double(SECONDS_LIMIT));
-  EXPECT_LE(work, SECONDS_LIMIT);
+  EXPECT_LE(seconds.count(), SECONDS_LIMIT);   // wall clock, as a user waits
 }
 
 // Frictionless and elastic: the state does not depend on the way to it.

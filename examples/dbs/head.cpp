@@ -44,6 +44,28 @@ Triangles join(const Triangles& a, const Triangles& b) {
   return both;
 }
 
+Vec3 read_vector(const nlohmann::json& value, const std::string& culprit) {
+  if (!value.is_array() || value.size() != 3 || !value[0].is_number() || !value[1].is_number() ||
+      !value[2].is_number()) {
+    throw Error(ErrorCode::file, culprit + " is not three numbers");
+  }
+  return Vec3(value[0], value[1], value[2]);
+}
+
+void read_plans(const nlohmann::json& json, const std::string& path, Head& head) {
+  if (!json.contains("trajectories")) return;
+  for (int side : {left, right}) {
+    const auto found = json["trajectories"].find(name_of(side));
+    if (found == json["trajectories"].end()) continue;
+    const std::string culprit = path + ": trajectory '" + name_of(side) + "': ";
+    const Vec3 direction = read_vector(found->value("direction", nlohmann::json()),
+                                       culprit + "direction");
+    if (!(direction.norm() > 0.0)) throw Error(ErrorCode::file, culprit + "direction is zero");
+    head.plans[side] = {read_vector(found->value("target", nlohmann::json()), culprit + "target"),
+                        direction.normalized()};
+  }
+}
+
 void read_landmarks(const std::string& path, Head& head) {
   std::ifstream file(path);
   if (!file) throw Error(ErrorCode::file, path + ": cannot be read");
@@ -56,10 +78,7 @@ void read_landmarks(const std::string& path, Head& head) {
   }
   head.name = json.value("name", "head");
   for (const auto& [name, value] : json["landmarks"].items()) {
-    if (!value.is_array() || value.size() != 3 || !value[0].is_number()) {
-      throw Error(ErrorCode::file, path + ": landmark '" + name + "' is not three numbers");
-    }
-    head.landmarks[name] = Vec3(value[0], value[1], value[2]);
+    head.landmarks[name] = read_vector(value, path + ": landmark '" + name + "'");
   }
   for (const char* needed : {"AC", "PC", "STN_left", "STN_right", "frontal_pole_left",
                              "frontal_pole_right"}) {
@@ -67,6 +86,7 @@ void read_landmarks(const std::string& path, Head& head) {
       throw Error(ErrorCode::file, path + ": landmark '" + needed + "' is missing");
     }
   }
+  read_plans(json, path, head);
 }
 
 }  // namespace
@@ -76,7 +96,7 @@ Head read_head(const std::string& folder) {
   const io::Grid cavity = io::read_vtp(folder + "/cavity.vtp");
   const io::Grid sheet = io::read_vtp(folder + "/falx.vtp");
   Head head{"", Mesh(brain.points, brain.tets, to_indices(brain.cell_field("region"))),
-            {}, {}, {}, {}, {}, cavity.points, {}, {}, sheet.points, sheet.triangles, {}};
+            {}, {}, {}, {}, {}, cavity.points, {}, {}, {}, sheet.points, sheet.triangles, {}, {}};
   head.pair = to_indices(brain.node_field("pair"));
   head.bridge = marked(brain.node_field("bridge"));
   head.falx = marked(brain.node_field("falx"));
@@ -86,7 +106,8 @@ Head read_head(const std::string& folder) {
   const Triangles walls[2] = {pick(cavity.triangles, parts, 1, false),
                               pick(cavity.triangles, parts, 2, false)};
   head.skull = join(walls[left], walls[right]);
-  head.wall[left] = join(walls[left], pick(cavity.triangles, parts, 3, false));
+  head.midsheet = pick(cavity.triangles, parts, 3, false);
+  head.wall[left] = join(walls[left], head.midsheet);
   head.wall[right] = join(walls[right], pick(cavity.triangles, parts, 3, true));
   read_landmarks(folder + "/head.json", head);
   return head;

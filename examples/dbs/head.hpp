@@ -13,6 +13,11 @@ using namespace brainshift;
 enum Side { left = 0, right = 1 };
 inline const char* name_of(int side) { return side == left ? "left" : "right"; }
 
+// A planned electrode: target, and the unit vector from it to the burr hole.
+struct Plan {
+  Vec3 target, outward;
+};
+
 struct Head {
   std::string name;
   Mesh brain;                       // region 1: left, 2: right
@@ -21,9 +26,11 @@ struct Head {
   Points wall_points;               // inner skull, tentorium, and the mid-sheet between the sides
   Triangles wall[2];                // closed outward compartments, by Side
   Triangles skull;                  // outward, without the mid-sheet
+  Triangles midsheet;               // normals to the right
   Points falx_points;
   Triangles falx_triangles;         // normals to the right
   std::map<std::string, Vec3> landmarks;   // mm, RAS
+  std::map<int, Plan> plans;        // by Side; may be empty
 
   static int region(int side) { return side == left ? 1 : 2; }
 };

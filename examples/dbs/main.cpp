@@ -1,11 +1,13 @@
-// A deep brain stimulation procedure on a real head, as far as tissue and fluid go.
+// A deep brain stimulation procedure on a real head, from before the craniotomy to the months after.
 //
-//   before surgery -> fluid lost through the right burr hole -> more while electrodes are tested
-//   -> the same on the left -> fluid restored in the months after
+//   before surgery -> fluid lost through the right burr hole -> cannula and electrode in -> more is
+//   lost while they are tested -> cannula out -> the same on the left -> fluid restored in the months
+//   after
 //
 // Build:  cmake -B build -DCMAKE_BUILD_TYPE=Release && cmake --build build --target dbs
 // Run:    examples/run, or build/examples/dbs/dbs --head examples/head/data/medium
-// Output: one line per stage; stages.json, stages.csv, stages.pvd (ParaView, 3D Slicer) in --out.
+// Output: a line per stage and one per electrode; in --out: stages.json, stages.csv, electrodes.csv,
+//         stages.pvd (ParaView), stage_*.vtu and stage_*.vtp (3D Slicer).
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -25,25 +27,30 @@ int run(const dbs::Options& options) {
   Procedure procedure(head, options);
   // 3. The stages, one solve each.
   std::vector<StageResult> stages;
-  std::vector<std::pair<double, std::string>> series;
+  Series brain, electrodes;
   if (options.files) prepare_folder(options.out);
-  print_table_header();
-  for (const auto& [number, title] : procedure.plan()) {
-    stages.push_back(procedure.run(number, title));
-    print_stage(stages.back());
-    if (options.files && stages.back().report.converged()) {
-      series.emplace_back(number, write_stage(options.out, head, procedure, number));
+  print_table_header(options);
+  for (const Stage& stage : procedure.plan()) {
+    stages.push_back(procedure.run(stage));
+    const StageResult& result = stages.back();
+    print_stage(result);
+    if (!result.report.converged()) break;
+    if (!options.files) continue;
+    brain.emplace_back(result.time, write_stage(options.out, head, procedure, stage.label));
+    for (const std::string& name : write_electrodes(options.out, procedure, result)) {
+      electrodes.emplace_back(result.time, name);
     }
-    if (!stages.back().report.converged()) break;
   }
+  print_electrodes(stages);
   // 4. What is left to look at.
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   std::printf("\n%.1f s in all\n", seconds.count());
   if (options.files) {
     write_tables(options.out, head, options, stages);
-    io::write_pvd(options.out + "/stages.pvd", series);
-    std::printf("results in %s: stages.json, stages.csv, stages.pvd (ParaView, 3D Slicer)\n",
-                options.out.c_str());
+    io::write_pvd(options.out + "/stages.pvd", brain);
+    io::write_pvd(options.out + "/stages.electrodes.pvd", electrodes);
+    std::printf("results in %s: stages.json, stages.csv, electrodes.csv; stages.pvd and "
+                "stages.electrodes.pvd for ParaView\n", options.out.c_str());
   }
   return stages.back().report.converged() ? 0 : 2;
 }

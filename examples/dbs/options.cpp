@@ -22,9 +22,44 @@ Loss parse_loss(const std::string& text) {
               "'" + text + "' is no loss of fluid: write 20mL (fluid), 20mL-air or 35mm (level)");
 }
 
+namespace {
+
+void add_electrodes(CLI::App& app, Options& o) {
+  const auto group = app.add_option_group("Electrodes");
+  group->add_option("--sides", o.sides, "that are operated on: both (right first), right, left")
+      ->capture_default_str()->check(CLI::IsMember({"both", "right", "left"}));
+  group->add_option("--target", o.target, "landmark without its side: STN, GPi (default: the plan "
+                                          "that comes with the head)");
+  group->add_option("--target-right", o.target_right, "x y z, mm RAS")->expected(3);
+  group->add_option("--target-left", o.target_left, "x y z, mm RAS")->expected(3);
+  group->add_option("--sagittal", o.sagittal, "angle of the trajectory above horizontal, degrees");
+  group->add_option("--lateral", o.lateral, "angle of the trajectory to the side, degrees");
+  group->add_option("--aim", o.aim, "at the planned point of the skull frame, or where that point "
+                                    "of the tissue has gone")
+      ->capture_default_str()->check(CLI::IsMember({"skull", "tissue"}));
+  std::string names;
+  for (const std::string& name : device_names()) names += (names.empty() ? "" : ", ") + name;
+  group->add_option("--lead", o.lead, names)->capture_default_str();
+  group->add_option("--test-electrode", o.test_electrode,
+                    "tests in the lead's place, exchanged before the cannula leaves");
+  group->add_option("--bending", o.bending, "EI of the lead, N mm^2 (default: the table's)");
+  group->add_option("--friction", o.friction, "largest shear between device and tissue, kPa")
+      ->capture_default_str();
+  group->add_option("--slack", o.slack, "the wire slides this far at the burr hole before the skull "
+                                        "holds it, mm")->capture_default_str();
+  group->add_flag("--clamped,!--hinged", o.clamped, "the wire at the burr hole");
+  group->add_option("--cannula-depth", o.cannula_depth, "the cannula ends short of the target, mm")
+      ->capture_default_str();
+  group->add_flag("--elastic-cannula,!--rigid-cannula", o.elastic_cannula,
+                  "a steel beam held at the burr hole, or rigid");
+  group->add_flag("--devices,!--no-devices", o.devices, "with electrodes, or only the loss of fluid");
+}
+
+}  // namespace
+
 int parse(int argc, char** argv, Options& o) {
-  CLI::App app{"Brain shift of a deep brain stimulation procedure: fluid is lost on the right, then on "
-               "the left, and comes back in the months after.", "dbs"};
+  CLI::App app{"A deep brain stimulation procedure: fluid is lost, a cannula and an electrode go in on "
+               "the right, then on the left, and the fluid comes back in the months after.", "dbs"};
   app.add_option("--head", o.head, "folder of the head (brain.vtu, cavity.vtp, falx.vtp, head.json)")
       ->required();
   app.add_option("--out", o.out, "folder for results")->capture_default_str();
@@ -36,7 +71,7 @@ int parse(int argc, char** argv, Options& o) {
   app.add_option("--csf-density", o.csf_density, "of the fluid, kg/m^3")->capture_default_str();
   app.add_option("--right", o.right, "lost on the right: 20mL (fluid), 20mL-air, or 35mm (level)")
       ->capture_default_str();
-  app.add_option("--left", o.left, "lost on the left; 0mL: one side only")->capture_default_str();
+  app.add_option("--left", o.left, "lost on the left")->capture_default_str();
   app.add_option("--late", o.late, "part of a side's loss that comes during testing")
       ->capture_default_str()->check(CLI::Range(0.0, 1.0));
   app.add_option("--elevation", o.elevation, "of the head above horizontal, degrees")
@@ -47,6 +82,7 @@ int parse(int argc, char** argv, Options& o) {
                  "how the brainstem is held at its lower end, and the optic nerves if named")
       ->capture_default_str()
       ->check(CLI::IsMember({"elastic", "fixed", "elastic+optic", "fixed+optic"}));
+  add_electrodes(app, o);
   app.add_flag("--falx,!--no-falx", o.falx, "with or without the falx (hemispheres still touch)");
   app.add_flag("--skull,!--no-skull", o.skull, "with or without contact with skull and tentorium");
   app.add_flag("--balanced,!--free", o.balanced,
@@ -61,6 +97,8 @@ int parse(int argc, char** argv, Options& o) {
   parse_loss(o.right);
   parse_loss(o.left);
   law_from_name(o.law);
+  device_data(o.lead);
+  if (!o.test_electrode.empty()) device_data(o.test_electrode);
   return -1;
 }
 

@@ -1,7 +1,9 @@
 // What the user of the example may choose.
 #pragma once
 
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "brainshift/brainshift.hpp"
 
@@ -31,6 +33,21 @@ struct Options {
   double elevation = 15.0;        // degrees, of the head
   std::string fluid = "communicating";
   std::string support = "elastic";
+  // Electrodes.
+  std::string sides = "both";     // that are operated on: both (right first), right, left
+  std::string target;             // landmark without its side (STN, GPi); empty: the head's plan
+  std::vector<double> target_right, target_left;   // mm, RAS; empty: as above
+  double sagittal = std::numeric_limits<double>::quiet_NaN();   // degrees; NaN: the head's plan
+  double lateral = std::numeric_limits<double>::quiet_NaN();
+  std::string aim = "skull";      // at the planned point of the skull frame, or of the tissue
+  bool devices = true;            // false: only fluid is lost
+  std::string lead = "3389", test_electrode;   // of the device table; empty: the lead tests
+  double bending = 0.0;           // N mm^2, EI of the lead; 0: the table's
+  double friction = 0.0;          // kPa, bound of the shear between device and tissue
+  double slack = 0.0;             // mm the wire may slide at the burr hole before the skull holds it
+  bool clamped = false;           // the wire's tangent is held at the burr hole too
+  double cannula_depth = 0.0;     // mm the cannula ends short of the target
+  bool elastic_cannula = false;   // a steel beam held at the burr hole, instead of a rigid one
   bool falx = true, skull = true, balanced = true, files = true, quiet = false;
 };
 

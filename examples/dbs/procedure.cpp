@@ -23,63 +23,54 @@ Procedure::Procedure(const Head& head, const Options& options)
       m_loss{parse_loss(options.left), parse_loss(options.right)},
       m_gravity(gravity_of(options.elevation)),
       m_stepper(make_stepper(head, options, m_ids)),
-      m_full_level(full_level(head, m_gravity)),
-      m_volume_before(head.brain.volume()),
-      m_before(Points::Zero(head.brain.node_count(), 3)),
-      m_facing_falx(head.falx) {
-  std::vector<char> medial(std::size_t(head.brain.node_count()), 0);
-  for (std::size_t i = 0; i < medial.size(); ++i) medial[i] = head.pair[i] >= 0;
+      m_tissue(head, m_stepper),
+      m_full_level(full_level(head, m_gravity)) {
   for (int side : {left, right}) {
-    std::vector<char> seen(medial);
-    for (Index f : head.brain.faces_of_region(Head::region(side))) {
-      for (int k = 0; k < 3; ++k) {
-        const Index node = head.brain.surface()(f, k);
-        if (!seen[std::size_t(node)]) m_outer[side].push_back(node);
-        seen[std::size_t(node)] = 1;
-      }
+    if (options.sides != "both" && options.sides != name_of(side)) {
+      m_loss[side].amount = 0.0;
+    } else if (options.devices) {
+      m_side[side].electrode.emplace(options, plan_trajectory(head, options, side));
     }
   }
-  prepare_landmarks();
+  m_plan = make_plan();
   check_plan();
 }
 
-void Procedure::prepare_landmarks() {
-  m_landmarks.resize(Eigen::Index(m_head.landmarks.size()), 3);
-  for (const auto& [name, point] : m_head.landmarks) {
-    m_landmarks.row(Eigen::Index(m_names.size())) = point.transpose();
-    m_names.push_back(name);
+std::vector<Stage> Procedure::make_plan() const {
+  std::vector<Stage> stages{{"0", "before surgery", Action::none, right}};
+  const auto add = [&](const char* label, int side, const char* what, Action action) {
+    stages.push_back({label, name_of(side) + std::string(", ") + what, action, side});
+  };
+  // The left side repeats the right one's stages 1 to 3 as its sixth.
+  const char* labels[2][5] = {{"6a", "6b", "6c", "7", "8"}, {"1", "2", "3", "4", "5"}};
+  for (int side : {right, left}) {
+    const bool loss = m_loss[side].amount > 0.0;
+    const bool lead = m_side[side].electrode.has_value();
+    if (loss) add(labels[side][0], side, "craniotomy", Action::lose_fluid);
+    if (lead) add(labels[side][1], side, "cannula in", Action::insert_cannula);
+    if (lead) add(labels[side][2], side, "electrode in", Action::insert_lead);
+    if (loss && m_options.late > 0.0) add(labels[side][3], side, "testing", Action::test);
+    if (lead) add(labels[side][4], side, "cannula out", Action::remove_cannula);
   }
-  const Location where = m_head.brain.locate(m_landmarks);
-  for (Eigen::Index i = 0; i < m_landmarks.rows(); ++i) {
-    if (where.tet[std::size_t(i)] >= 0) continue;   // else: the tissue closest to it
-    Eigen::Index nearest;
-    (m_head.brain.nodes().rowwise() - m_landmarks.row(i)).rowwise().squaredNorm().minCoeff(&nearest);
-    m_landmarks.row(i) = m_head.brain.nodes().row(nearest);
-  }
+  stages.push_back({"9", "CSF restored", Action::restore, right});
+  return stages;
 }
 
 void Procedure::check_plan() {
   const auto before = m_stepper.snapshot();
-  for (const auto& stage : plan()) {
-    set_fluid(stage.first);
+  for (const Stage& stage : m_plan) {
+    set_fluid(stage);
     m_stepper.check_settings();
   }
   m_stepper.restore(before);
-}
-
-std::vector<std::pair<int, std::string>> Procedure::plan() const {
-  std::vector<std::pair<int, std::string>> stages{{0, "before surgery"}};
-  const bool both = m_loss[left].amount > 0.0;
-  if (m_loss[right].amount > 0.0) {
-    stages.emplace_back(1, "right craniotomy");
-    if (m_options.late > 0.0) stages.emplace_back(4, "right, testing");
+  for (const Operated& side : m_side) {
+    if (!side.electrode) continue;
+    const Electrode& e = *side.electrode;
+    e.lead_in_cannula(m_options.lead);
+    m_stepper.insert(e.lead(), {e.trajectory().target, e.trajectory().outward}, e.hold_of_wire(),
+                     e.track());
   }
-  if (both) {
-    stages.emplace_back(6, "left craniotomy");
-    if (m_options.late > 0.0) stages.emplace_back(7, "left, testing");
-  }
-  stages.emplace_back(9, "CSF restored");
-  return stages;
+  m_stepper.restore(before);
 }
 
 // Sets the fluid of a side to `part` of its loss. A communicating fluid is one: it has lost what
@@ -99,59 +90,126 @@ void Procedure::lose(int side, const Loss& loss, double part) {
   if (loss.law == FluidLaw::air_volume) csf.set_air_volume(mine, amount);
 }
 
-void Procedure::set_fluid(int number) {
-  const double early = 1.0 - m_options.late;
-  switch (number) {
-    case 1: return lose(right, m_loss[right], early);
-    case 4: return lose(right, m_loss[right], 1.0);
-    case 6: return lose(left, m_loss[left], early);
-    case 7: return lose(left, m_loss[left], 1.0);
-    case 9:
-      m_stepper.csf().set_full(m_stepper.csf().find(name_of(left)));
-      m_stepper.csf().set_full(m_stepper.csf().find(name_of(right)));
-      return;
-    default: return;
+void Procedure::set_fluid(const Stage& stage) {
+  Csf& csf = m_stepper.csf();
+  if (stage.action == Action::lose_fluid) {
+    lose(stage.side, m_loss[stage.side], 1.0 - m_options.late);
+  } else if (stage.action == Action::test) {
+    lose(stage.side, m_loss[stage.side], 1.0);
+  } else if (stage.action == Action::restore) {
+    for (int side : {left, right}) csf.set_full(csf.find(name_of(side)));
   }
 }
 
-StageResult Procedure::run(int number, const std::string& title) {
+// Aimed at the planned point of the skull frame, or at where that point of the tissue has gone.
+void Procedure::insert_cannula(int side) {
+  Operated& o = m_side[side];
+  if (m_options.aim == "tissue") {
+    const Trajectory planned = o.electrode->trajectory();
+    const PointValues moved = m_stepper.displacement_at(planned.target.transpose());
+    const Vec3 target = planned.target + moved.values.row(0).transpose();
+    o.electrode.emplace(m_options, make_trajectory(m_head, side, target,
+                                                   (planned.inner_table - target).normalized()));
+  }
+  const Electrode& e = *o.electrode;
+  o.device = m_stepper.insert(e.cannula(), e.cannula_placement(), e.cannula_hold(), e.track());
+  o.in_cannula = true;
+}
+
+void Procedure::insert_lead(int side) {
+  Operated& o = m_side[side];
+  const Electrode& e = *o.electrode;
+  const std::string& first =
+      m_options.test_electrode.empty() ? m_options.lead : m_options.test_electrode;
+  m_stepper.exchange(o.device, e.lead_in_cannula(first), e.hold_in_cannula(), e.cannula_depth());
+}
+
+// The final lead takes over the track, and the burr hole its wire.
+void Procedure::remove_cannula(int side) {
+  Operated& o = m_side[side];
+  if (m_options.test_electrode.empty() && !m_options.elastic_cannula) {
+    m_stepper.set_hold(o.device, o.electrode->hold_of_wire());
+  } else {
+    m_stepper.exchange(o.device, o.electrode->lead(), o.electrode->hold_of_wire());
+  }
+  o.in_cannula = false;
+}
+
+void Procedure::apply(const Stage& stage) {
+  set_fluid(stage);
+  if (stage.action == Action::insert_cannula) insert_cannula(stage.side);
+  if (stage.action == Action::insert_lead) insert_lead(stage.side);
+  if (stage.action == Action::remove_cannula) remove_cannula(stage.side);
+}
+
+StageResult Procedure::run(const Stage& stage) {
   StageResult result{};
-  result.number = number;
-  result.title = title;
-  set_fluid(number);
+  result.label = stage.label;
+  result.title = stage.title;
+  for (std::size_t i = 0; i < m_plan.size(); ++i) {
+    if (m_plan[i].label == stage.label) result.time = double(i);
+  }
+  apply(stage);
   result.report = m_stepper.solve_static();
   if (!m_options.quiet && isatty(2)) std::fprintf(stderr, "\r%60s\r", "");
-  if (number == 0) {
-    m_before = m_stepper.displacement();
-    m_volume_before = 0.0;
-    for (int side : {left, right}) {
-      m_volume_before += m_stepper.compartment(m_stepper.csf().find(name_of(side))).tissue_volume;
-    }
+  if (stage.action == Action::none) m_tissue.set_reference(m_stepper);
+  if (result.report.converged()) mark(stage);
+  m_tissue.fill(m_stepper, result);
+  for (int side : {left, right}) {
+    if (m_side[side].device >= 0) result.lead[side] = measure_lead(side);
   }
-  measure(result);
+  result.remark = remark_on(result);
   return result;
 }
 
-void Procedure::measure(StageResult& result) const {
-  const Points u = shift();
-  double volume = 0.0;
+// Keeps where things were when later stages will ask how far they moved.
+void Procedure::mark(const Stage& stage) {
+  Operated& o = m_side[stage.side];
+  const auto tip = [&](const Operated& of) {
+    return Vec3(m_stepper.device(of.device).nodes.row(0).transpose());
+  };
+  if (stage.action == Action::insert_cannula || stage.action == Action::insert_lead) {
+    o.track = m_stepper.device(o.device).path;
+  }
+  if (stage.action != Action::remove_cannula) return;
+  o.released.emplace(m_stepper, tip(o));
+  for (Operated& side : m_side) {   // surgery ends with the last of these stages
+    if (side.device >= 0) side.closed.emplace(m_stepper, tip(side));
+  }
+}
+
+LeadResult Procedure::measure_lead(int side) const {
+  const Operated& o = m_side[side];
+  LeadResult r{m_stepper.device(o.device), o.electrode->trajectory(), o.in_cannula, Vec3::Zero(), 0.0,
+               {}, {}};
+  const Vec3& outward = r.trajectory.outward;
+  for (Eigen::Index p = 0; p < o.track.rows(); ++p) {
+    const Vec3 moved = (r.state.path.row(p) - o.track.row(p)).transpose();
+    r.track_motion += moved / double(o.track.rows());
+    r.largest_track_motion =
+        std::max(r.largest_track_motion, (moved - moved.dot(outward) * outward).norm());
+  }
+  const Vec3 tip = r.state.nodes.row(0).transpose();
+  if (o.released) r.since_cannula_left = o.released->since(m_stepper, tip, outward);
+  if (o.closed) r.since_surgery = o.closed->since(m_stepper, tip, outward);
+  return r;
+}
+
+// Gravity drains fluid through a burr hole only down to it.
+std::string Procedure::remark_on(const StageResult& result) const {
   for (int side : {left, right}) {
-    result.fluid[side] = m_stepper.compartment(m_stepper.csf().find(name_of(side)));
-    volume += result.fluid[side].tissue_volume;
-    for (Index node : m_outer[side]) {
-      result.surface_motion[side] = std::max(result.surface_motion[side], u.row(node).norm());
-    }
+    const Operated& o = m_side[side];
+    if (!o.electrode || !result.fluid[side].open) continue;
+    const double hole = -m_gravity.normalized().dot(o.electrode->trajectory().inner_table);
+    const double below = hole - result.fluid[side].head;
+    if (below <= 0.0) continue;
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "the level on the %s lies %.1f mm below its burr hole: gravity alone would not "
+                  "drain it so far", name_of(side), below);
+    return text;
   }
-  result.tissue_loss = m_volume_before - volume;
-  for (Index node : m_facing_falx) result.midline_shift += u(node, 0) / double(m_facing_falx.size());
-  const Location where = m_head.brain.locate(m_landmarks);
-  for (std::size_t i = 0; i < m_names.size(); ++i) {
-    Vec3& moved = result.shifts[m_names[i]] = Vec3::Zero();
-    for (int a = 0; a < 4; ++a) {
-      const Index node = m_head.brain.tets()(where.tet[i], a);
-      moved += where.weights(Eigen::Index(i), a) * u.row(node).transpose();
-    }
-  }
+  return "";
 }
 
 }  // namespace dbs

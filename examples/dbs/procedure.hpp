@@ -1,51 +1,69 @@
-// The stages of the procedure as far as tissue and fluid go, and what is measured after each.
+// The stages of the procedure. The library knows none of them: each is a change of settings or
+// devices and one solve.
 #pragma once
 
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "electrode.hpp"
 #include "head.hpp"
+#include "measure.hpp"
 #include "options.hpp"
 #include "scene.hpp"
 
 namespace dbs {
 
-struct StageResult {
-  int number;                      // of the procedure: 0, 1, 4, 6, 7, 9
-  std::string title;
-  SolveReport report;
-  CompartmentState fluid[2];       // by Side
-  double tissue_loss;              // mm^3: volume of the brain at stage 0 minus now
-  double surface_motion[2];        // mm; largest of the side's outer surface
-  double midline_shift;            // mm, positive to the right; mean of the nodes facing the falx
-  std::map<std::string, Vec3> shifts;   // mm, of the landmarks
-};   // all motions count from stage 0
+enum class Action { none, lose_fluid, insert_cannula, insert_lead, test, remove_cannula, restore };
 
-// Drives a Stepper through the stages. The library knows none of them.
+struct Stage {
+  std::string label;   // 0, 1, ... 6a, 6b, 6c, ... 9
+  std::string title;
+  Action action;
+  int side;
+};
+
+// Drives a Stepper through the stages.
 class Procedure {
  public:
+  // Throws brainshift::Error for what cannot be, before anything is solved.
   Procedure(const Head& head, const Options& options);
 
   Stepper& stepper() { return m_stepper; }
   const Stepper& stepper() const { return m_stepper; }
   // Displacement since stage 0 (N x 3, mm): stage 0 of a load-free image moves too.
-  Points shift() const { return m_stepper.displacement() - m_before; }
+  Points shift() const { return m_stepper.displacement() - m_tissue.reference(); }
+  const BeamDevice& device_model(int side) const {
+    return m_stepper.device_model(m_side[side].device);
+  }
   const SceneIds& ids() const { return m_ids; }
   const Vec3& gravity() const { return m_gravity; }
 
-  // (number, title) of the stages that will be done.
-  std::vector<std::pair<int, std::string>> plan() const;
-  // Applies the changes of a stage and solves; throws brainshift::Error for settings that cannot be.
-  StageResult run(int number, const std::string& title);
+  const std::vector<Stage>& plan() const { return m_plan; }   // stages that will be done
+  // Applies the changes of a stage and solves; throws brainshift::Error for what cannot be.
+  StageResult run(const Stage& stage);
 
  private:
+  struct Operated {   // what has been done on a side
+    std::optional<Electrode> electrode;
+    DeviceId device = -1;
+    bool in_cannula = false;
+    Points track;                             // where its material was when it was made
+    std::optional<TipMark> released, closed;  // when the cannula left; at the end of surgery
+  };
+
   static Stepper make_stepper(const Head& head, const Options& options, SceneIds& ids);
-  void set_fluid(int number);
-  void lose(int side, const Loss& loss, double part);
-  void measure(StageResult& result) const;
-  void prepare_landmarks();
+  std::vector<Stage> make_plan() const;
   void check_plan();   // every stage's settings, before the first is solved
+  void apply(const Stage& stage);
+  void set_fluid(const Stage& stage);
+  void lose(int side, const Loss& loss, double part);
+  void insert_cannula(int side);
+  void insert_lead(int side);
+  void remove_cannula(int side);
+  void mark(const Stage& stage);
+  LeadResult measure_lead(int side) const;
+  std::string remark_on(const StageResult& result) const;
 
   const Head& m_head;
   Options m_options;
@@ -53,11 +71,10 @@ class Procedure {
   Vec3 m_gravity;
   SceneIds m_ids;
   Stepper m_stepper;
-  double m_full_level, m_volume_before;
-  Points m_before;      // displacement at stage 0
-  Indices m_outer[2], m_facing_falx;
-  std::vector<std::string> m_names;
-  Points m_landmarks;   // moved onto the nearest node where outside the mesh
+  TissueMeasures m_tissue;
+  double m_full_level;
+  Operated m_side[2];
+  std::vector<Stage> m_plan;
 };
 
 }  // namespace dbs

@@ -1,7 +1,8 @@
-// What the example leaves behind: a table on the screen, JSON, CSV, and VTU files.
+// What the example leaves behind: tables on the screen, JSON, CSV, and VTK files.
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "procedure.hpp"
@@ -9,17 +10,25 @@
 namespace dbs {
 
 void print_head(const Head& head, const Options& options);
-void print_table_header();
+void print_table_header(const Options& options);
 void print_stage(const StageResult& stage);
+// Tips, bows, forces, and retraction of each electrode from stage to stage.
+void print_electrodes(const std::vector<StageResult>& stages);
 
 // Makes the folder, and takes the results of an earlier run out of it.
 void prepare_folder(const std::string& folder);
-// stages.json and stages.csv; written whole or not at all.
+// stages.json, stages.csv and electrodes.csv; each written whole or not at all.
 void write_tables(const std::string& folder, const Head& head, const Options& options,
                   const std::vector<StageResult>& stages);
+
+using Series = std::vector<std::pair<double, std::string>>;   // time and file name
 // stage_N.vtu, the deformed mesh: displacement since stage 0, pressure, wetted, contact_force on
 // nodes; region, jacobian on tets. Returns the file name.
-std::string write_stage(const std::string& folder, const Head& head, Procedure& procedure,
-                        int number);
+std::string write_stage(const std::string& folder, const Head& head, const Procedure& procedure,
+                        const std::string& label);
+// stage_N_right.vtp: the device as a tube (arc_mm, contact number or 0); stage_N_right_track.vtp:
+// its track in tissue (arc_mm, and the force on the tissue, mN, at each point where they are tied).
+std::vector<std::string> write_electrodes(const std::string& folder, const Procedure& procedure,
+                                          const StageResult& stage);
 
 }  // namespace dbs

@@ -26,6 +26,8 @@ struct Hold {
   // Here the wire is fixed to the skull, free to turn unless `clamped`.
   double anchor = std::numeric_limits<double>::infinity();
   bool clamped = false;
+  // The wire may slide this far (mm) along its placement, either way, before the skull holds it.
+  double slack = 0.0;
 };
 
 struct TrackOptions {

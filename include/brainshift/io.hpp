@@ -17,12 +17,15 @@ struct Field {
   bool integer = false;    // written as Int32; a value that is none is refused
 };
 
+using Lines = Eigen::Matrix<Index, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
 struct Grid {
   Points points;        // mm
   Tets tets;            // VTU: linear tets
-  Triangles triangles;  // VTP: triangles
+  Lines lines;          // VTP: straight lines between two nodes, before
+  Triangles triangles;  //      triangles
   std::vector<Field> node_fields;
-  std::vector<Field> cell_fields;
+  std::vector<Field> cell_fields;   // VTP: of lines, then of triangles
   const Field& node_field(const std::string& name) const;  // throws Error(file) naming it
   const Field& cell_field(const std::string& name) const;
 };
@@ -32,7 +35,7 @@ struct Grid {
 // arrays, with and without zlib, of every number type of VTK. Writers write zlib-compressed binary
 // (Float64), and to a temporary beside the target and rename: an old file stays whole on failure.
 Grid read_vtu(const std::string& path);  // UnstructuredGrid of linear tets
-Grid read_vtp(const std::string& path);  // PolyData of triangles
+Grid read_vtp(const std::string& path);  // PolyData of lines and triangles
 void write_vtu(const std::string& path, const Grid& grid);
 void write_vtp(const std::string& path, const Grid& grid);
 // A time series; entries: time (stage number) and file name relative to the .pvd.

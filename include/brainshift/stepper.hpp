@@ -114,12 +114,14 @@ class Stepper {
   // when the tip is not in tissue or the line leaves it in between.
   DeviceId insert(const BeamDevice& device, const Placement& placement, const Hold& hold = {},
                   const TrackOptions& options = {});
-  // Another device on the same track, straight along the placement of the old one; that one must
-  // be held whole (Hold::rigid_from = 0).
-  void exchange(DeviceId id, const BeamDevice& device, const Hold& hold);
+  // Another device on the same track, straight along the placement of the old one, its tip
+  // `advance` (mm, >= 0) deeper; the tissue crossed there joins the track. Forces along the track
+  // stay. Throws Error(invalid_argument) when the tip would leave the tissue.
+  void exchange(DeviceId id, const BeamDevice& device, const Hold& hold, double advance = 0.0);
   void set_hold(DeviceId id, const Hold& hold);
   void remove(DeviceId id);
   DeviceState device(DeviceId id) const;   // of the last good state; throws invalid_argument
+  const BeamDevice& device_model(DeviceId id) const;   // what was inserted last
 
   // Throws what solve_static() would throw for the present settings; changes nothing.
   void check_settings() const;

@@ -9,6 +9,7 @@ namespace brainshift {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 // A direction across the tangent that varies smoothly: the section's own, made orthogonal to it.
 Vec3 across(const Vec3& tangent, const Mat3& frame) {
@@ -16,6 +17,15 @@ Vec3 across(const Vec3& tangent, const Mat3& frame) {
 }
 
 }  // namespace
+
+double& multiplier_of(DeviceMotion& motion, const CouplingRow& row) {
+  const bool anchor = row.kind == RowKind::anchor_across || row.one_sided();
+  return anchor ? motion.anchor[std::size_t(row.axis)] : motion.multipliers[row.point][row.axis];
+}
+
+double multiplier_of(const DeviceMotion& motion, const CouplingRow& row) {
+  return multiplier_of(const_cast<DeviceMotion&>(motion), row);
+}
 
 Coupling::Coupling(const Mesh& mesh, const std::vector<InsertedDevice>& devices,
                    const Points& start)
@@ -54,24 +64,47 @@ std::vector<CouplingRow> Coupling::rows(const Points& u,
       const Vec3 first = across(tangent, state.R[std::size_t(foot.place.element)]);
       const Vec3 second = tangent.cross(first);
       const Vec3 off = x - foot.position;
-      const double unbounded = std::numeric_limits<double>::infinity();
-      rows.push_back({d, p, 0, first, foot.place, first.dot(off), unbounded});
-      rows.push_back({d, p, 1, second, foot.place, second.dot(off), unbounded});
+      rows.push_back({d, p, 0, RowKind::across, first, foot.place, first.dot(off), -unbounded,
+                      unbounded});
+      rows.push_back({d, p, 1, RowKind::across, second, foot.place, second.dot(off), -unbounded,
+                      unbounded});
       const double arc = arc_of(device.beam, foot.place), from = m_start_arcs[d][p];
       const double bound = device.options.shear_bound * 2.0 * pi *
                            device.beam.device().radius_at(arc) * device.path[p].length;
       if (bound > 0.0) {
         const double slip = std::isnan(from) ? 0.0 : arc - from;
-        rows.push_back({d, p, 2, tangent, foot.place, slip, bound});
+        rows.push_back({d, p, 2, RowKind::along, tangent, foot.place, slip, -bound, bound});
       }
     }
+    add_anchor_rows(d, state, rows);
   }
   return rows;
 }
 
+void Coupling::add_anchor_rows(std::size_t d, const BeamState& state,
+                               std::vector<CouplingRow>& rows) const {
+  const InsertedDevice& device = m_devices[d];
+  const Index node = device.anchor_node();
+  if (node < 0 || device.hold.slack == 0.0) return;
+  const double arc = device.beam.device().arcs()[node];
+  const BeamPoint place = place_at(device.beam, arc);
+  const Placement& at = device.placement;
+  const Vec3 off = at.tip + arc * at.outward - position(device.beam, state, place);
+  const Vec3 first = at.outward.unitOrthogonal(), second = at.outward.cross(first);
+  const double slack = device.hold.slack, along = at.outward.dot(off);
+  rows.push_back({d, 0, 0, RowKind::anchor_across, first, place, first.dot(off), -unbounded,
+                  unbounded});
+  rows.push_back({d, 0, 1, RowKind::anchor_across, second, place, second.dot(off), -unbounded,
+                  unbounded});
+  rows.push_back({d, 0, 2, RowKind::anchor_stop, at.outward, place, slack + along, 0.0, unbounded});
+  rows.push_back({d, 0, 3, RowKind::anchor_stop, -at.outward, place, slack - along, 0.0,
+                  unbounded});
+}
+
 Eigen::VectorXd Coupling::tissue_gradient(const CouplingRow& row, const Blocks& blocks) const {
-  const PathPoint& point = m_devices[row.device].path[row.point];
   Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * blocks.count());
+  if (row.kind == RowKind::anchor_across || row.one_sided()) return g;
+  const PathPoint& point = m_devices[row.device].path[row.point];
   for (int a = 0; a < 4; ++a) {
     const Index node = m_mesh.tets()(point.tet, a);
     g.segment<3>(3 * blocks.block_of()[std::size_t(node)]) += point.weights[a] * row.direction;
@@ -94,13 +127,14 @@ void Coupling::add_forces(const std::vector<CouplingRow>& rows,
                           const std::vector<DeviceMotion>& motions, Points& nodal,
                           DeviceVectors& on_devices) const {
   for (const CouplingRow& row : rows) {
-    const double multiplier = motions[row.device].multipliers[row.point][row.axis];
+    const double multiplier = multiplier_of(motions[row.device], row);
+    on_devices[row.device] += multiplier * device_gradient(row, motions);
+    if (row.kind == RowKind::anchor_across || row.one_sided()) continue;
     const PathPoint& point = m_devices[row.device].path[row.point];
     for (int a = 0; a < 4; ++a) {
       nodal.row(m_mesh.tets()(point.tet, a)) +=
           (multiplier * point.weights[a] * row.direction).transpose();
     }
-    on_devices[row.device] += multiplier * device_gradient(row, motions);
   }
 }
 

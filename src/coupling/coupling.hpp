@@ -6,6 +6,10 @@
 //   0 = slip since the last solve,  |multiplier| <= shear bound * 2 pi r * length.
 // To first order at a closed tie the foot does not move along (t . (x - c) = 0), so the gradient is
 // n_k on the tissue point and -n_k dc/dq on the device.
+//
+// A wire anchored with slack s at the point a of the skull has rows of its own, c now its anchored
+// section and t the direction of its placement: two across, n_k . (a - c) = 0, and two one-sided ones,
+//   s + t . (a - c) >= 0,   s - t . (a - c) >= 0.
 #pragma once
 
 #include <vector>
@@ -15,14 +19,23 @@
 
 namespace brainshift {
 
+enum class RowKind { across, along, anchor_across, anchor_stop };
+
 struct CouplingRow {
-  std::size_t device, point;
-  int axis;              // 0, 1: across; 2: along
+  std::size_t device, point;   // of the path; of an anchor: unused
+  int axis;              // 0, 1: across; 2: along; of an anchor: 0 to 3
+  RowKind kind;
   Vec3 direction;
   BeamPoint place;
   double gap;            // mm; across: distance still open; along: slip since the last solve
-  double bound;          // mN on |multiplier|; infinite across
+  double lower, upper;   // mN, bounds of the multiplier
+
+  bool one_sided() const { return kind == RowKind::anchor_stop; }
+  bool bilateral() const { return kind == RowKind::across || kind == RowKind::anchor_across; }
 };
+
+double& multiplier_of(DeviceMotion& motion, const CouplingRow& row);
+double multiplier_of(const DeviceMotion& motion, const CouplingRow& row);
 
 using DeviceVectors = std::vector<Eigen::VectorXd>;   // 6N per device
 
@@ -51,6 +64,8 @@ class Coupling {
   void hold(std::size_t d, BlockTridiagonal& K) const;
 
  private:
+  void add_anchor_rows(std::size_t d, const BeamState& state, std::vector<CouplingRow>& rows) const;
+
   const Mesh& m_mesh;
   const std::vector<InsertedDevice>& m_devices;
   std::vector<std::vector<Index>> m_held;

@@ -10,18 +10,26 @@ std::vector<Index> InsertedDevice::held_dofs() const {
   std::vector<Index> dofs;
   const Eigen::VectorXd& arcs = beam.device().arcs();
   const double slack = 1e-9 * beam.device().length();
-  // The node nearest to the anchor holds the wire.
-  Eigen::Index anchor = -1;
-  if (std::isfinite(hold.anchor)) (arcs.array() - hold.anchor).abs().minCoeff(&anchor);
+  const Index anchor = anchor_node();
   for (Index i = 0; i < beam.node_count(); ++i) {
     const bool rigid = arcs[i] >= hold.rigid_from - slack;
-    const bool here = i == Index(anchor);
-    const int count = rigid || (here && hold.clamped) ? 6 : here ? 3 : 0;
-    for (int k = 0; k < count; ++k) dofs.push_back(6 * i + k);
-    // Nothing but its anchor keeps a round wire from spinning about itself.
-    if (here && count == 3) dofs.push_back(6 * i + 3);
+    const bool here = i == anchor;
+    for (int k = 0; k < 6; ++k) {
+      const bool shift = k < 3;
+      // Nothing but its anchor keeps a round wire from spinning about itself (k = 3); with slack,
+      // rows of the coupling hold its place.
+      const bool held = shift ? hold.slack == 0.0 : hold.clamped || k == 3;
+      if (rigid || (here && held)) dofs.push_back(6 * i + k);
+    }
   }
   return dofs;
+}
+
+Index InsertedDevice::anchor_node() const {
+  if (!std::isfinite(hold.anchor)) return -1;
+  Eigen::Index node;
+  (beam.device().arcs().array() - hold.anchor).abs().minCoeff(&node);
+  return Index(node);
 }
 
 InsertedDevice place_device(DeviceId id, const BeamDevice& device, const Placement& placement,

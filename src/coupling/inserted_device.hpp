@@ -1,6 +1,7 @@
 // A device on its track: the beam, what holds it, the material points it is tied to.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "beam/beam.hpp"
@@ -16,6 +17,8 @@ struct DeviceMotion {
   // Per path point: forces (mN) of the device on the tissue along two fixed directions across and
   // one along the device, as multipliers of its rows.
   std::vector<Vec3> multipliers;
+  // Of an anchor with slack, on the device: across (2), and of its stops against moving in and out.
+  std::array<double, 4> anchor{};
 };
 
 struct InsertedDevice {
@@ -29,7 +32,7 @@ struct InsertedDevice {
 
   // Dofs (6 per node) that the hold takes away.
   std::vector<Index> held_dofs() const;
-  bool held_whole() const { return hold.rigid_from <= 0.0; }
+  Index anchor_node() const;   // nearest to the anchor; -1 without one
 };
 
 // Straight along the placement, unloaded.

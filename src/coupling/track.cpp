@@ -53,9 +53,8 @@ bool may_cross(const Mesh& mesh, const Points& x, Index t, const Vec3& tip, cons
   return (off - off.dot(outward) * outward).squaredNorm() <= reach;
 }
 
-}  // namespace
-
-std::vector<PathPoint> cut_track(const Mesh& mesh, const Points& positions, const Vec3& tip,
+// Crossings with faces, none nearer than least_spacing to the one before; may be none at all.
+std::vector<PathPoint> crossings(const Mesh& mesh, const Points& positions, const Vec3& tip,
                                  const Vec3& outward, double length, double least_spacing) {
   struct Piece {
     Index tet;
@@ -92,9 +91,6 @@ std::vector<PathPoint> cut_track(const Mesh& mesh, const Points& positions, cons
     weights /= weights.sum();
     path.push_back({piece.tet, weights, c.to, 0.0});
   }
-  if (path.empty()) {
-    throw Error(ErrorCode::invalid_argument, "the track crosses no face of the mesh");
-  }
   // Each point stands for the track half-way to its neighbours.
   for (std::size_t i = 0; i < path.size(); ++i) {
     const double low = i == 0 ? 0.0 : 0.5 * (path[i - 1].arc + path[i].arc);
@@ -102,6 +98,28 @@ std::vector<PathPoint> cut_track(const Mesh& mesh, const Points& positions, cons
     path[i].length = high - low;
   }
   return path;
+}
+
+}  // namespace
+
+std::vector<PathPoint> cut_track(const Mesh& mesh, const Points& positions, const Vec3& tip,
+                                 const Vec3& outward, double length, double least_spacing) {
+  std::vector<PathPoint> path = crossings(mesh, positions, tip, outward, length, least_spacing);
+  if (path.empty()) {
+    throw Error(ErrorCode::invalid_argument, "the track crosses no face of the mesh");
+  }
+  return path;
+}
+
+std::vector<PathPoint> extend_track(const Mesh& mesh, const Points& positions, const Vec3& tip,
+                                    const Vec3& outward, double advance, double least_spacing,
+                                    const std::vector<PathPoint>& path) {
+  std::vector<PathPoint> longer = crossings(mesh, positions, tip, outward, advance, least_spacing);
+  for (PathPoint point : path) {
+    point.arc += advance;
+    longer.push_back(point);
+  }
+  return longer;
 }
 
 }  // namespace brainshift

@@ -21,4 +21,9 @@ struct PathPoint {
 std::vector<PathPoint> cut_track(const Mesh& mesh, const Points& positions, const Vec3& tip,
                                  const Vec3& outward, double length, double least_spacing);
 
+// The track of a device that goes `advance` deeper, to `tip`: what it crosses now, then `path`.
+std::vector<PathPoint> extend_track(const Mesh& mesh, const Points& positions, const Vec3& tip,
+                                    const Vec3& outward, double advance, double least_spacing,
+                                    const std::vector<PathPoint>& path);
+
 }  // namespace brainshift

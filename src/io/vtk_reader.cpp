@@ -102,18 +102,24 @@ Grid read_vtu(const std::string& path) {
 
 Grid read_vtp(const std::string& path) {
   const VtkDocument document(path, "PolyData");
-  const std::size_t cells = document.count("NumberOfPolys");
-  for (const char* other : {"NumberOfVerts", "NumberOfLines", "NumberOfStrips"}) {
+  const std::size_t triangles = document.count("NumberOfPolys");
+  const std::size_t lines = document.count("NumberOfLines", 0);
+  for (const char* other : {"NumberOfVerts", "NumberOfStrips"}) {
     if (document.count(other, 0) != 0) {
-      fail(document.path(), std::string(other) + " is not 0; only triangles are read");
+      fail(document.path(), std::string(other) + " is not 0; only lines and triangles are read");
     }
   }
   Grid grid;
   grid.points = read_points(document);
-  check_offsets(document, "Polys", cells, 3, "triangles");
-  grid.triangles = read_cells<Triangles>(document, "Polys", cells, std::size_t(grid.points.rows()));
-  grid.node_fields = read_fields(document, "PointData", std::size_t(grid.points.rows()));
-  grid.cell_fields = read_fields(document, "CellData", cells);
+  const auto points = std::size_t(grid.points.rows());
+  if (lines != 0) {
+    check_offsets(document, "Lines", lines, 2, "lines between two nodes");
+    grid.lines = read_cells<Lines>(document, "Lines", lines, points);
+  }
+  check_offsets(document, "Polys", triangles, 3, "triangles");
+  grid.triangles = read_cells<Triangles>(document, "Polys", triangles, points);
+  grid.node_fields = read_fields(document, "PointData", points);
+  grid.cell_fields = read_fields(document, "CellData", lines + triangles);
   return grid;
 }
 

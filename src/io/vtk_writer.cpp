@@ -163,8 +163,9 @@ void Document::fields(const char* parent, const std::vector<Field>& fields, Eige
 }  // namespace
 
 void write_vtu(const std::string& path, const Grid& grid) {
-  if (grid.triangles.rows() != 0)
-    fail(path, "not written: a VTU holds tets, the grid has triangles");
+  if (grid.triangles.rows() != 0 || grid.lines.rows() != 0) {
+    fail(path, "not written: a VTU holds tets, the grid has lines or triangles");
+  }
   Document document(path, "UnstructuredGrid");
   document.line("<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
                 std::to_string(grid.points.rows()) + "\" NumberOfCells=\"" +
@@ -181,14 +182,23 @@ void write_vtu(const std::string& path, const Grid& grid) {
 }
 
 void write_vtp(const std::string& path, const Grid& grid) {
-  if (grid.tets.rows() != 0) fail(path, "not written: a VTP holds triangles, the grid has tets");
+  if (grid.tets.rows() != 0) {
+    fail(path, "not written: a VTP holds lines and triangles, the grid has tets");
+  }
+  const Eigen::Index cells = grid.lines.rows() + grid.triangles.rows();
   Document document(path, "PolyData");
   document.line("<PolyData>\n<Piece NumberOfPoints=\"" + std::to_string(grid.points.rows()) +
-                "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+                "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(grid.lines.rows()) +
+                "\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
                 std::to_string(grid.triangles.rows()) + "\">");
   document.fields("PointData", grid.node_fields, grid.points.rows());
-  document.fields("CellData", grid.cell_fields, grid.triangles.rows());
+  document.fields("CellData", grid.cell_fields, cells);
   document.points(grid.points);
+  if (grid.lines.rows() != 0) {
+    document.line("<Lines>");
+    document.cells(grid.lines, grid.points.rows());
+    document.line("</Lines>");
+  }
   document.line("<Polys>");
   document.cells(grid.triangles, grid.points.rows());
   document.line("</Polys>\n</Piece>\n</PolyData>");

@@ -104,8 +104,8 @@ void Newton::couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step
   Eigen::VectorXd lower(count), upper(count);
   for (Eigen::Index r = 0; r < count; ++r) {
     q[r] += m_couplings[std::size_t(r)].gap;
-    upper[r] = m_couplings[std::size_t(r)].bound;
-    lower[r] = -upper[r];
+    upper[r] = m_couplings[std::size_t(r)].upper;
+    lower[r] = m_couplings[std::size_t(r)].lower;
   }
   step.coupling.resize(count);
   if (count > 0) {
@@ -120,23 +120,29 @@ void Newton::couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step
   }
 }
 
+// What a row leaves open: the distance of a tie, how far a stop has been passed; slip is free to be.
+static double open_gap(const CouplingRow& row, double gap) {
+  return row.one_sided() ? std::max(0.0, -gap) : std::abs(gap);
+}
+
 // First-order fall of the merit E + sum bound |slip| + weight * sum |open tie|.
 void Newton::predict(Step& step) const {
   step.predicted = step.slope;
   for (Eigen::Index r = 0; r < step.coupling.size(); ++r) {
     const CouplingRow& row = m_couplings[std::size_t(r)];
-    if (row.axis < 2) step.weight = std::max(step.weight, 2.0 * std::abs(step.coupling[r]));
+    if (row.kind == RowKind::along) continue;
+    step.weight = std::max(step.weight, 2.0 * std::abs(step.coupling[r]));
   }
   for (Eigen::Index r = 0; r < step.coupling.size(); ++r) {
     const CouplingRow& row = m_couplings[std::size_t(r)];
-    if (row.axis < 2) {
-      step.predicted += step.weight * std::abs(row.gap);
+    if (row.kind != RowKind::along) {
+      step.predicted += step.weight * open_gap(row, row.gap);
       continue;
     }
     double change =
         m_coupling.tissue_gradient(row, m_eq.blocks()).dot(step.dx) +
         m_coupling.device_gradient(row, m_state.devices).dot(step.dq[row.device]);
-    step.predicted -= row.bound * (std::abs(row.gap + change) - std::abs(row.gap));
+    step.predicted -= row.upper * (std::abs(row.gap + change) - std::abs(row.gap));
   }
 }
 
@@ -144,7 +150,7 @@ double Newton::merit_of_rows(const MechanicalState& state, double weight) const 
   if (m_coupling.empty()) return 0.0;
   double sum = 0.0;
   for (const CouplingRow& row : m_coupling.rows(state.u, state.devices)) {
-    sum += (row.axis < 2 ? weight : row.bound) * std::abs(row.gap);
+    sum += (row.kind == RowKind::along ? row.upper : weight) * open_gap(row, row.gap);
   }
   return sum;
 }
@@ -164,7 +170,7 @@ void Newton::move_devices(const Step& step, double part, MechanicalState& next) 
   }
   for (Eigen::Index r = 0; r < step.coupling.size(); ++r) {
     const CouplingRow& row = m_couplings[std::size_t(r)];
-    double& multiplier = next.devices[row.device].multipliers[row.point][row.axis];
+    double& multiplier = multiplier_of(next.devices[row.device], row);
     multiplier += part * (step.coupling[r] - multiplier);
   }
 }
@@ -210,9 +216,12 @@ void Newton::measure_coupling() {
   m_report.tie_gap = 0.0;
   m_report.coupling_rows = Index(m_couplings.size());
   for (const CouplingRow& row : m_couplings) {
-    const double multiplier = m_state.devices[row.device].multipliers[row.point][row.axis];
-    const bool holds = std::abs(multiplier) < (1.0 - 1e-9) * row.bound;
-    if (row.axis < 2 || holds) m_report.tie_gap = std::max(m_report.tie_gap, std::abs(row.gap));
+    const double multiplier = multiplier_of(m_state.devices[row.device], row);
+    const bool slips = row.kind == RowKind::along && std::abs(multiplier) >= (1.0 - 1e-9) * row.upper;
+    if (slips) continue;
+    const bool at_stop = row.one_sided() && multiplier > 0.0;
+    const double open = at_stop ? std::abs(row.gap) : open_gap(row, row.gap);
+    m_report.tie_gap = std::max(m_report.tie_gap, open);
   }
 }
 

@@ -15,6 +15,9 @@ void check_hold(const Hold& hold) {
   if (bad(hold.rigid_from) || bad(hold.anchor)) {
     throw Error(ErrorCode::invalid_argument, "Hold: an arc length is negative or not a number");
   }
+  if (!(hold.slack >= 0.0) || std::isinf(hold.slack)) {
+    throw Error(ErrorCode::invalid_argument, "Hold: slack is negative or not finite");
+  }
   if (std::isinf(hold.rigid_from) && std::isinf(hold.anchor)) {
     throw Error(ErrorCode::invalid_argument,
                 "Hold: neither rigid_from nor anchor is given, so nothing holds the device");
@@ -43,15 +46,23 @@ DeviceId Stepper::insert(const BeamDevice& device, const Placement& placement, c
   return state.next_device++;
 }
 
-void Stepper::exchange(DeviceId id, const BeamDevice& device, const Hold& hold) {
+void Stepper::exchange(DeviceId id, const BeamDevice& device, const Hold& hold, double advance) {
   check_hold(hold);
-  InsertedDevice& old = m_impl->device(id);
-  if (!old.held_whole()) {
-    throw Error(ErrorCode::invalid_argument,
-                "device " + std::to_string(id) + " is not held whole and cannot be exchanged");
+  if (!(advance >= 0.0) || !std::isfinite(advance)) {
+    throw Error(ErrorCode::invalid_argument, "exchange: advance is negative or not finite");
   }
-  InsertedDevice next = place_device(id, device, old.placement, hold, old.options, old.path);
-  next.motion.multipliers = old.motion.multipliers;
+  InsertedDevice& old = m_impl->device(id);
+  Placement placement = old.placement;
+  std::vector<PathPoint> path = old.path;
+  std::vector<Vec3> multipliers = old.motion.multipliers;
+  if (advance > 0.0) {
+    placement.tip -= advance * placement.outward;
+    path = extend_track(m_impl->m_mesh, positions(), placement.tip, placement.outward, advance,
+                        old.options.least_spacing, old.path);
+    multipliers.insert(multipliers.begin(), path.size() - old.path.size(), Vec3::Zero());
+  }
+  InsertedDevice next = place_device(id, device, placement, hold, old.options, std::move(path));
+  next.motion.multipliers = std::move(multipliers);
   old = std::move(next);
 }
 
@@ -64,6 +75,10 @@ void Stepper::remove(DeviceId id) {
   const InsertedDevice& device = m_impl->device(id);
   auto& devices = m_impl->m_state.devices;
   devices.erase(devices.begin() + (&device - devices.data()));
+}
+
+const BeamDevice& Stepper::device_model(DeviceId id) const {
+  return m_impl->device(id).beam.device();
 }
 
 DeviceState Stepper::device(DeviceId id) const {
@@ -91,11 +106,12 @@ DeviceState Stepper::device(DeviceId id) const {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(d.beam.dof_count());
   for (const CouplingRow& row : coupling.rows(u, coupling.motions())) {
     if (coupling.devices()[row.device].id != id) continue;
+    if (row.bilateral()) s.largest_tie_gap = std::max(s.largest_tie_gap, std::abs(row.gap));
+    if (row.kind == RowKind::anchor_across || row.one_sided()) continue;
     const auto p = Eigen::Index(row.point);
-    const double multiplier = d.motion.multipliers[row.point][row.axis];
+    const double multiplier = multiplier_of(d.motion, row);
     s.path_arcs[p] = arc_of(d.beam, row.place);
     s.path_forces.row(p) += (multiplier * row.direction).transpose();
-    if (row.axis < 2) s.largest_tie_gap = std::max(s.largest_tie_gap, std::abs(row.gap));
   }
   // The skull holds what tissue does not: all coupling forces add up to the anchor's.
   s.anchor_force = s.path_forces.colwise().sum().transpose();

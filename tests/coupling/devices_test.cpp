@@ -36,8 +36,10 @@ BeamDevice lead(double bending = 5000.0) {   // mN mm^2
   return make_device("3389", 55.0, options);
 }
 
-Hold whole() { return {0.0, wire, false}; }
-Hold wire_only() { return {std::numeric_limits<double>::infinity(), wire, false}; }
+Hold whole() { return {0.0, wire, false, 0.0}; }
+Hold wire_only(double slack = 0.0) {
+  return {std::numeric_limits<double>::infinity(), wire, false, slack};
+}
 
 double largest(const Points& p) { return p.rowwise().norm().maxCoeff(); }
 
@@ -137,8 +139,10 @@ TEST(Devices, AreRefusedWhereTheyCannotBe) {
                [&] { stepper.insert(lead(), {tip, 2.0 * outward}, wire_only()); });
   expect_error(ErrorCode::invalid_argument, {"id 7"}, [&] { stepper.remove(7); });
   const DeviceId id = stepper.insert(lead(), {tip, outward}, wire_only());
-  expect_error(ErrorCode::invalid_argument, {"not held whole"},
-               [&] { stepper.exchange(id, lead(), whole()); });
+  expect_error(ErrorCode::invalid_argument, {"advance"},
+               [&] { stepper.exchange(id, lead(), whole(), -1.0); });
+  expect_error(ErrorCode::invalid_argument, {"tip", "not in tissue"},
+               [&] { stepper.exchange(id, lead(), whole(), 30.0); });
 }
 
 }  // namespace

@@ -9,11 +9,11 @@ namespace {
 
 void show(const char* what, const Options& o) {
   Procedure procedure(shipped_head(), o);
-  for (const auto& [number, title] : procedure.plan()) {
-    if (number > 1) break;
-    const StageResult s = procedure.run(number, title);
+  for (const Stage& stage : procedure.plan()) {
+    if (stage.action == Action::restore) break;
+    const StageResult s = procedure.run(stage);
     ASSERT_TRUE(s.report.converged()) << what << ": " << s.report.message;
-    if (number == 0) continue;
+    if (stage.action == Action::none) continue;
     const Vec3 l = s.shifts.at("STN_left"), r = s.shifts.at("STN_right");
     std::printf(
         "%-34s surface left %5.2f right %5.2f, midline %6.3f mm, "
@@ -26,7 +26,8 @@ void show(const char* what, const Options& o) {
 TEST(Ingredients, OnAndOff) {
   Options base = quiet_options();
   base.right = "20mL";
-  base.left = "0mL";
+  base.sides = "right";
+  base.devices = false;
   base.late = 0.0;
   std::printf("20 mL of fluid lost on the right\n");
   for (const char* fluid : {"communicating", "separate"}) {

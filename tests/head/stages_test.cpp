@@ -13,18 +13,19 @@ TEST(Stages, EndInBalanceAndInTime) {
   const auto start = std::chrono::steady_clock::now();
   const std::clock_t start_of_work = std::clock();
   Procedure procedure(shipped_head(), quiet_options());
-  for (const auto& [number, title] : procedure.plan()) {
-    const StageResult s = procedure.run(number, title);
+  for (const Stage& stage : procedure.plan()) {
+    const StageResult s = procedure.run(stage);
     const SolveReport& r = s.report;
     std::printf(
-        "stage %d: residual %.1e, complementarity %.1e, violation %.1e mm, min J %.3f, "
-        "%d iterations, %d factorisations, %.2f s\n",
-        number, r.residual, r.complementarity, r.violation, r.smallest_jacobian, r.iterations,
-        r.factorisations, r.seconds);
+        "stage %-2s: residual %.1e, complementarity %.1e, violation %.1e mm, tie gap %.1e mm, "
+        "min J %.3f, %d iterations, %d factorisations, %.2f s\n",
+        s.label.c_str(), r.residual, r.complementarity, r.violation, r.tie_gap,
+        r.smallest_jacobian, r.iterations, r.factorisations, r.seconds);
     EXPECT_TRUE(r.converged()) << r.message;
     EXPECT_LE(r.residual, 1e-8);  // of the largest force norm
     EXPECT_LE(r.complementarity, 1e-8);
     EXPECT_GT(r.smallest_jacobian, 0.0);
+    EXPECT_LE(r.tie_gap, 1e-7);  // mm
     for (const auto& [name, shift] : s.shifts) EXPECT_TRUE(shift.allFinite()) << name;
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

@@ -98,6 +98,14 @@ inline Grid three_triangles() {
   return grid;
 }
 
+inline Grid three_lines() {
+  Grid grid = three_triangles();
+  grid.triangles.resize(0, 3);
+  grid.lines.resize(3, 2);
+  grid.lines << 0, 2, 2, 1, 3, 4;
+  return grid;
+}
+
 // Bit for bit, up to the sign of zero.
 inline void expect_same(const std::vector<Field>& a, const std::vector<Field>& b) {
   ASSERT_EQ(a.size(), b.size());
@@ -116,6 +124,8 @@ inline void expect_same(const Grid& a, const Grid& b) {
   EXPECT_EQ(a.points, b.points);
   EXPECT_EQ(a.tets, b.tets);
   EXPECT_EQ(a.triangles, b.triangles);
+  ASSERT_EQ(a.lines.rows(), b.lines.rows());
+  EXPECT_EQ(a.lines, b.lines);
   expect_same(a.node_fields, b.node_fields);
   expect_same(a.cell_fields, b.cell_fields);
 }

@@ -48,7 +48,9 @@ TEST(Refused, OtherCells) {
   expect_refused_after(ascii_tets, "4 8\n", "8 4\n", "cell 0 has 8 corners");
   expect_refused_after(ascii_triangles, "3 6 9", "4 6 9", "cell 0 has 4 corners");
   expect_refused_after(ascii_triangles, "NumberOfLines=\"0\"", "NumberOfLines=\"1\"",
-                       "NumberOfLines is not 0");
+                       "array 'offsets' has room for 0 values");
+  expect_refused_after(ascii_triangles, "NumberOfStrips=\"0\"", "NumberOfStrips=\"1\"",
+                       "NumberOfStrips is not 0");
 }
 
 TEST(Refused, NodesThatAreNotThere) {

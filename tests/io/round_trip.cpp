@@ -18,6 +18,18 @@ TEST(RoundTrip, TrianglesComeBackAsTheyWere) {
   expect_same(read_vtp(scratch / "a.vtp"), three_triangles());
 }
 
+TEST(RoundTrip, LinesComeBackAsTheyWereAloneAndBeforeTriangles) {
+  const Scratch scratch;
+  Grid grid = three_lines();
+  write_vtp(scratch / "a.vtp", grid);
+  expect_same(read_vtp(scratch / "a.vtp"), grid);
+  grid.triangles = three_triangles().triangles;
+  grid.cell_fields[0].values.resize(6, 1);
+  grid.cell_fields[0].values << 1, 2, 3, 4, 5, 6;
+  write_vtp(scratch / "a.vtp", grid);
+  expect_same(read_vtp(scratch / "a.vtp"), grid);
+}
+
 TEST(RoundTrip, ExtremeNumbersKeepEveryBit) {
   const Scratch scratch;
   using Limits = std::numeric_limits<double>;

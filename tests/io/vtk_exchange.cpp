@@ -122,6 +122,8 @@ TEST(VtkExchange, VtkReadsOurFiles) {
   expect_vtk_reads(scratch / "a.vtu", two_tets(), two_tets().tets, 10);
   write_vtp(scratch / "a.vtp", three_triangles());
   expect_vtk_reads(scratch / "a.vtp", three_triangles(), three_triangles().triangles, 5);
+  write_vtp(scratch / "a.vtp", three_lines());
+  expect_vtk_reads(scratch / "a.vtp", three_lines(), three_lines().lines, 3);
 }
 
 // Several compressed blocks, the last one full and not.

@@ -1,0 +1,195 @@
+// JSON and CSV.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "results.hpp"
+
+namespace dbs {
+namespace {
+
+double ml(double mm3) { return mm3 / mm3_per_ml; }
+
+nlohmann::json to_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+nlohmann::json to_json(const Points& points) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    rows.push_back(to_json(Vec3(points.row(i).transpose())));
+  }
+  return rows;
+}
+
+nlohmann::json number(double value) {   // JSON has no NaN
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+nlohmann::json to_json(const std::optional<Retraction>& r) {
+  if (!r) return {};
+  return {{"skull_mm", number(r->skull)}, {"tissue_mm", number(r->tissue)}};
+}
+
+nlohmann::json to_json(const LeadResult& r) {
+  const DeviceState& d = r.state;
+  nlohmann::json arcs = nlohmann::json::array();
+  for (Eigen::Index p = 0; p < d.path_arcs.size(); ++p) arcs.push_back(number(d.path_arcs[p]));
+  return {{"device", d.name}, {"in_cannula", r.in_cannula},
+          {"target_mm", to_json(r.trajectory.target)}, {"outward", to_json(r.trajectory.outward)},
+          {"burr_hole_mm", to_json(r.trajectory.inner_table)},
+          {"tip_mm", to_json(Vec3(d.nodes.row(0).transpose()))}, {"nodes_mm", to_json(d.nodes)},
+          {"contacts_mm", to_json(d.contact_centres)},
+          {"bow_mm", d.bow}, {"bow_from_tip_mm", d.bow_arc},
+          {"bow_direction", to_json(d.bow_direction)},
+          {"force_on_skull_mN", to_json(d.anchor_force)},
+          {"track_mm", to_json(d.path)}, {"track_arc_mm", arcs},
+          {"track_force_on_tissue_mN", to_json(d.path_forces)},
+          {"track_mean_motion_mm", to_json(r.track_motion)},
+          {"track_largest_motion_across_mm", r.largest_track_motion},
+          {"largest_tie_gap_mm", d.largest_tie_gap},
+          {"D_since_cannula_left", to_json(r.since_cannula_left)},
+          {"D_since_end_of_surgery", to_json(r.since_surgery)}};
+}
+
+nlohmann::json to_json(const SolveReport& r) {
+  return {{"status", to_string(r.status)}, {"message", r.message}, {"load_factor", r.load_factor},
+          {"active_contacts", r.active_contacts}, {"largest_violation_mm", r.violation},
+          {"residual", r.residual}, {"complementarity", r.complementarity},
+          {"smallest_jacobian", r.smallest_jacobian}, {"last_correction_mm", r.last_correction},
+          {"coupling_rows", r.coupling_rows}, {"tie_gap_mm", r.tie_gap}, {"energy_uJ", r.energy},
+          {"newton_iterations", r.iterations}, {"factorisations", r.factorisations},
+          {"load_steps", r.load_steps}, {"seconds", r.seconds}};
+}
+
+nlohmann::json to_json(const StageResult& s) {
+  nlohmann::json shifts, sides, leads = nlohmann::json::object();
+  for (const auto& [name, shift] : s.shifts) shifts[name] = to_json(shift);
+  for (int side : {left, right}) {
+    const CompartmentState& c = s.fluid[side];
+    sides[name_of(side)] = {{"open", c.open}, {"level_mm", c.head},
+                            {"air_mL", ml(c.air_volume)}, {"fluid_mL", ml(c.fluid_volume)},
+                            {"fluid_lost_mL", ml(c.lost_volume)},
+                            {"tissue_mL", ml(c.tissue_volume)},
+                            {"largest_surface_motion_mm", s.surface_motion[side]}};
+    if (s.lead[side]) leads[name_of(side)] = to_json(*s.lead[side]);
+  }
+  return {{"stage", s.label}, {"title", s.title}, {"remark", s.remark}, {"sides", sides},
+          {"brain_volume_lost_mL", ml(s.tissue_loss)}, {"midline_shift_mm", s.midline_shift},
+          {"shift_mm", shifts}, {"electrodes", leads}, {"solve", to_json(s.report)}};
+}
+
+nlohmann::json to_json(const Options& o) {
+  return {{"law", o.law}, {"young_kPa", o.young}, {"poisson", o.poisson},
+          {"density_kg_m3", o.density}, {"csf_density_kg_m3", o.csf_density}, {"right", o.right},
+          {"left", o.left}, {"late", o.late}, {"elevation_deg", o.elevation}, {"fluid", o.fluid},
+          {"support", o.support}, {"falx", o.falx}, {"skull", o.skull}, {"balanced", o.balanced},
+          {"sides", o.sides}, {"devices", o.devices}, {"aim", o.aim}, {"lead", o.lead},
+          {"test_electrode", o.test_electrode}, {"bending_Nmm2", o.bending},
+          {"friction_kPa", o.friction}, {"slack_mm", o.slack}, {"clamped", o.clamped},
+          {"cannula_depth_mm", o.cannula_depth}, {"elastic_cannula", o.elastic_cannula}};
+}
+
+void write_whole(const std::string& path, const std::string& text) {
+  const std::string temporary = path + ".part";
+  std::ofstream file(temporary, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw Error(ErrorCode::file, temporary + ": cannot be written");
+  std::filesystem::rename(temporary, path);
+}
+
+std::string stages_csv(const std::vector<StageResult>& stages) {
+  std::ostringstream out;
+  out.precision(10);
+  out << "stage,title,status,level_left_mm,level_right_mm,air_left_mL,air_right_mL,"
+         "brain_volume_lost_mL,surface_left_mm,surface_right_mm,midline_shift_mm";
+  for (const auto& shift : stages.front().shifts) {
+    for (const char* axis : {"x", "y", "z"}) out << ',' << shift.first << '_' << axis << "_mm";
+  }
+  out << ",active_contacts,violation_mm,newton_iterations,residual,complementarity,"
+         "smallest_jacobian,seconds\n";
+  for (const StageResult& s : stages) {
+    const SolveReport& r = s.report;
+    out << s.label << ",\"" << s.title << "\"," << to_string(r.status) << ',' << s.fluid[left].head
+        << ',' << s.fluid[right].head << ',' << ml(s.fluid[left].air_volume) << ','
+        << ml(s.fluid[right].air_volume) << ',' << ml(s.tissue_loss) << ','
+        << s.surface_motion[left] << ',' << s.surface_motion[right] << ',' << s.midline_shift;
+    for (const auto& shift : s.shifts) {
+      for (int k = 0; k < 3; ++k) out << ',' << shift.second[k];
+    }
+    out << ',' << r.active_contacts << ',' << r.violation << ',' << r.iterations << ','
+        << r.residual << ',' << r.complementarity << ',' << r.smallest_jacobian << ','
+        << r.seconds << '\n';
+  }
+  return out.str();
+}
+
+// One row per stage and side: tip, retraction, bow, force on the skull, contact centres.
+std::string electrodes_csv(const std::vector<StageResult>& stages) {
+  std::ostringstream out;
+  out.precision(10);
+  out << "stage,side,device,in_cannula,tip_x_mm,tip_y_mm,tip_z_mm,D_skull_since_cannula_mm,"
+         "D_tissue_since_cannula_mm,D_skull_since_surgery_mm,D_tissue_since_surgery_mm,bow_mm,"
+         "bow_from_tip_mm,bow_x,bow_y,bow_z,skull_force_x_mN,skull_force_y_mN,skull_force_z_mN,"
+         "contacts_mm\n";
+  const auto put = [&out](const Vec3& v) { out << ',' << v.x() << ',' << v.y() << ',' << v.z(); };
+  const auto put_retraction = [&out](const std::optional<Retraction>& r) {
+    for (double value : {r ? r->skull : std::nan(""), r ? r->tissue : std::nan("")}) {
+      out << ',';
+      if (std::isfinite(value)) out << value;
+    }
+  };
+  for (const StageResult& s : stages) {
+    for (int side : {right, left}) {
+      if (!s.lead[side]) continue;
+      const LeadResult& r = *s.lead[side];
+      out << s.label << ',' << name_of(side) << ",\"" << r.state.name << "\"," << r.in_cannula;
+      put(r.state.nodes.row(0).transpose());
+      put_retraction(r.since_cannula_left);
+      put_retraction(r.since_surgery);
+      out << ',' << r.state.bow << ',' << r.state.bow_arc;
+      put(r.state.bow_direction);
+      put(r.state.anchor_force);
+      out << ",\"";
+      for (Eigen::Index c = 0; c < r.state.contact_centres.rows(); ++c) {
+        out << (c ? "; " : "") << r.state.contact_centres.row(c);
+      }
+      out << "\"\n";
+    }
+  }
+  return out.str();
+}
+
+}  // namespace
+
+void prepare_folder(const std::string& folder) {
+  namespace fs = std::filesystem;
+  fs::create_directories(folder);
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    for (const char* mine : {"stage_", "stages.", "electrodes."}) {
+      if (name.rfind(mine, 0) == 0) {
+        fs::remove(entry.path());
+        break;
+      }
+    }
+  }
+}
+
+void write_tables(const std::string& folder, const Head& head, const Options& o,
+                  const std::vector<StageResult>& stages) {
+  nlohmann::json json;
+  json["head"] = {{"name", head.name}, {"nodes", head.brain.node_count()},
+                  {"tets", head.brain.tet_count()}, {"volume_mL", ml(head.brain.volume())}};
+  json["frame"] = "RAS";
+  json["gravity_mm_s2"] = to_json(gravity_of(o.elevation));
+  json["options"] = to_json(o);
+  for (const StageResult& stage : stages) json["stages"].push_back(to_json(stage));
+  write_whole(folder + "/stages.json", json.dump(1) + "\n");
+  write_whole(folder + "/stages.csv", stages_csv(stages));
+  write_whole(folder + "/electrodes.csv", electrodes_csv(stages));
+}
+
+}  // namespace dbs

@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""Pictures of a run of dbs: for each stage a coronal cut, a sagittal cut and a view in space.
+"""Pictures of a run of dbs: for each stage a coronal cut, a cut along an electrode and a view in space.
 
 The brain is coloured by the size of its displacement, by one scale for all stages. Light blue is
-fluid, white is air; black is the skull, red the falx, the grey line the brain before surgery. In the
-sagittal cut and in space, up is against gravity, so the level of the fluid lies flat.
+fluid, white is air; black is the skull, red the falx, the grey line the brain before surgery. An
+electrode is orange, its contacts dark; the thin black line is its planned trajectory. The second cut
+holds the right trajectory (the left one if only that side was operated on) and the line from front to
+back; without electrodes it is sagittal. There and in space, up is against gravity.
 
     examples/dbs/render.py --head examples/head/data/medium out/dbs
 
@@ -20,8 +22,8 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
-from vtk_parts import (SIDES, actor, clip, colours, compartment, cut, filled, flat, label, moved, plane,
-                       read, scale_bar, skull_of, surface_of)
+from vtk_parts import (SIDES, actor, clip, colours, compartment, contact_colours, cut, filled, flat,
+                       label, moved, plane, read, scale_bar, segment, skull_of, surface_of)
 
 FLUID, AIR = (0.80, 0.89, 0.98), (1.0, 1.0, 1.0)
 
@@ -38,6 +40,32 @@ class Scene:
         gravity = np.array(stages["gravity_mm_s2"], float)
         self.up = -gravity / np.linalg.norm(gravity)
         self.lookup, self.options = colours(largest), options
+        self.results = options.results
+        self.plans = {}   # side: (target, burr hole); those of the last stage are final
+        for stage in stages["stages"]:
+            for side, lead in stage["electrodes"].items():
+                self.plans[side] = np.array(lead["target_mm"]), np.array(lead["burr_hole_mm"])
+
+    def second_cut(self):
+        """Normal, offset and name of the second cut."""
+        if not self.plans:
+            x = self.options.sagittal
+            return np.array([1.0, 0, 0]), x, f"sagittal, x = {x:g} mm; up is against gravity"
+        side = "right" if "right" in self.plans else "left"
+        target, hole = self.plans[side]
+        normal = np.cross(np.array([0, 1.0, 0]), hole - target)
+        normal *= np.sign(normal[0]) / np.linalg.norm(normal)
+        return normal, normal @ target, f"along the {side} electrode; up is against gravity"
+
+    def lead_actors(self, stage, shift=np.zeros(3)):
+        for side in stage["electrodes"]:
+            tube = read(self.results / f"stage_{stage['stage']}_{side}.vtp")
+            body = actor(tube, lookup=contact_colours(), cells="contact")
+            body.SetPosition(*shift)
+            yield body
+            line = actor(segment(*self.plans[side]), (0, 0, 0), width=1)
+            line.SetPosition(*shift)
+            yield line
 
     def level(self, height):
         return plane(self.up * height, self.up)
@@ -70,7 +98,7 @@ class Scene:
         glyph.Update()
         return actor(glyph.GetOutput(), (0.1, 0.1, 0.1))
 
-    def draw_cut(self, renderer, stage, brain, rest, normal, at, camera_up):
+    def draw_cut(self, renderer, stage, brain, rest, normal, at, camera_up, leads=False):
         where = plane(normal * at, normal)
         towards_eye = 0.2 * normal   # later layers lie over earlier ones
         layers = [*self.fluid_actors(stage, where)]
@@ -85,11 +113,16 @@ class Scene:
         for i, layer in enumerate(layers):
             layer.SetPosition(*(i * towards_eye))
             renderer.AddActor(layer)
+        for lead in self.lead_actors(stage, len(layers) * towards_eye) if leads else ():
+            renderer.AddActor(lead)   # over the tissue it is cut with
         self.look(renderer, normal, camera_up, outline)
 
     def draw_space(self, renderer, stage, brain):
         shell = surface_of(brain)
-        renderer.AddActor(actor(shell, lookup=self.lookup))
+        opacity = 0.45 if stage["electrodes"] else 1.0
+        renderer.AddActor(actor(shell, lookup=self.lookup, opacity=opacity))
+        for lead in self.lead_actors(stage):
+            renderer.AddActor(lead)
         renderer.AddActor(actor(self.skull, (0.85, 0.80, 0.70), opacity=0.15))
         renderer.AddActor(actor(self.falx, (0.75, 0.1, 0.1), opacity=0.5))
         for side in SIDES:
@@ -133,13 +166,22 @@ def caption(stage):
     return f"{stage['stage']}  {stage['title']}\n" + "\n".join(sides)
 
 
+def electrode_caption(stage):
+    lines = []
+    for side, lead in stage["electrodes"].items():
+        off = np.subtract(lead["tip_mm"], lead["target_mm"])
+        lines.append(f"{side} {lead['device']}{' in cannula' if lead['in_cannula'] else ''}: tip "
+                     f"{np.linalg.norm(off):.2f} mm off its target, bow {lead['bow_mm']:.2f} mm")
+    return "\n".join(lines)
+
+
 def render(scene, stage, grid, rest, path):
     options = scene.options
     window = vtk.vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(4)
     window.SetSize(3 * options.size, options.size)
-    x, y, z = np.eye(3)
+    _, y, z = np.eye(3)
     for i in range(3):
         renderer = vtk.vtkRenderer()
         renderer.SetViewport(i / 3, 0, (i + 1) / 3, 1)
@@ -151,9 +193,10 @@ def render(scene, stage, grid, rest, path):
                                       0.02, 0.02, 13))
             renderer.AddActor2D(label(caption(stage), 0.02, 0.90, 15))
         elif i == 1:
-            scene.draw_cut(renderer, stage, grid, rest, x, options.sagittal, scene.up)
-            renderer.AddActor2D(label(f"sagittal, x = {options.sagittal:g} mm; up is against gravity",
-                                      0.02, 0.02, 13))
+            normal, at, name = scene.second_cut()
+            scene.draw_cut(renderer, stage, grid, rest, normal, at, scene.up, True)
+            renderer.AddActor2D(label(name, 0.02, 0.02, 13))
+            renderer.AddActor2D(label(electrode_caption(stage), 0.02, 0.92, 13))
         else:
             scene.draw_space(renderer, stage, grid)
             renderer.AddActor2D(scale_bar(scene.lookup))
@@ -186,9 +229,9 @@ def parse():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("results", type=Path, help="folder written by dbs")
     parser.add_argument("--head", type=Path, required=True, help="folder of the head")
-    parser.add_argument("--stage", type=int, action="append", help="only this one; may be repeated")
+    parser.add_argument("--stage", action="append", help="only this one (6b); may be repeated")
     parser.add_argument("--coronal", type=float, default=40.0, help="y of the cut, mm (default 40)")
-    parser.add_argument("--sagittal", type=float, default=15.0, help="x of the cut, mm (default 15)")
+    parser.add_argument("--sagittal", type=float, default=15.0, help="x of the cut where there is no electrode, mm (default 15)")
     parser.add_argument("--magnify", type=float, default=1.0, help="the motion (default 1)")
     parser.add_argument("--arrows", type=float, default=0.0, metavar="FACTOR",
                         help="draw displacements as arrows, this many times their length")

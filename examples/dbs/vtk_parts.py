@@ -87,13 +87,25 @@ def skull_of(cavity):
     return surface_of(pipe(cavity, threshold))
 
 
-def actor(data, colour=None, lookup=None, opacity=1.0, width=1.0, edges=False):
+def segment(a, b):
+    source = vtk.vtkLineSource()
+    source.SetPoint1(a)
+    source.SetPoint2(b)
+    source.Update()
+    return source.GetOutput()
+
+
+def actor(data, colour=None, lookup=None, opacity=1.0, width=1.0, edges=False, cells=None):
+    """Coloured by the node array "size", or by the cell array `cells`, where there is a lookup."""
     mapper = vtk.vtkPolyDataMapper()
     mapper.SetInputData(data)
     mapper.SetResolveCoincidentTopologyToPolygonOffset()
     if lookup:
-        mapper.SetScalarModeToUsePointFieldData()
-        mapper.SelectColorArray("size")
+        if cells:
+            mapper.SetScalarModeToUseCellFieldData()
+        else:
+            mapper.SetScalarModeToUsePointFieldData()
+        mapper.SelectColorArray(cells or "size")
         mapper.SetLookupTable(lookup)
         mapper.UseLookupTableScalarRangeOn()
     else:
@@ -122,6 +134,15 @@ def colours(largest):
     table = vtk.vtkColorTransferFunction()
     for i, rgb in enumerate(VIRIDIS):
         table.AddRGBPoint(largest * i / (len(VIRIDIS) - 1), *rgb)
+    return table
+
+
+def contact_colours():
+    """Orange where the contact number is 0, dark on contacts."""
+    table = vtk.vtkColorTransferFunction()
+    for value, rgb in ((0.0, (0.95, 0.55, 0.1)), (0.5, (0.95, 0.55, 0.1)), (0.51, (0.15, 0.15, 0.2)),
+                       (99.0, (0.15, 0.15, 0.2))):
+        table.AddRGBPoint(value, *rgb)
     return table
 
 

@@ -7,6 +7,7 @@
 
 #include "brainshift/error.hpp"
 #include "material/registry.hpp"
+#include "threads/for_chunks.hpp"
 
 namespace brainshift {
 
@@ -36,33 +37,62 @@ Tissue::Tissue(const Mesh& mesh, const std::vector<std::pair<Index, Material>>& 
   }
 }
 
-double Tissue::energy(const Points& u) const {
-  double sum = 0.0;
+namespace {
+
+// Tets per chunk: long enough to be worth a thread, short enough for what a chunk keeps to stay in
+// the cache.
+constexpr Index tets_per_chunk = 512;
+
+}  // namespace
+
+template <class Work>
+void Tissue::for_tets(const Part& part, Index from, Index to, const Work& work) const {
+  const LawFunctions& law = law_functions(part.material.law());
+  const Lame lame{part.material.mu(), part.material.lambda()};
+  const Index chunks = (to - from + tets_per_chunk - 1) / tets_per_chunk;
+  for_chunks(m_threads, chunks, [&](Index c) {
+    const ChunkRange range = chunk_range(to - from, chunks, c);
+    for (Index i = range.from; i < range.to; ++i) work(law, lame, from + i);
+  });
+}
+
+template <class Work>
+void Tissue::for_all_tets(const Work& work) const {
   for (const Part& part : m_parts) {
-    const LawFunctions& law = law_functions(part.material.law());
-    const Lame lame{part.material.mu(), part.material.lambda()};
-    for (Index t : part.tets) {
-      const Tet4& e = m_elements[std::size_t(t)];
-      sum += e.volume * law.energy(lame, e.displacement_gradient(u, m_mesh.tets(), t));
-    }
+    for_tets(part, 0, Index(part.tets.size()),
+             [&](const LawFunctions& law, const Lame& lame, Index i) {
+               work(law, lame, part.tets[std::size_t(i)]);
+             });
   }
+}
+
+double Tissue::energy(const Points& u) const {
+  std::vector<double> energies(m_elements.size());
+  for_all_tets([&](const LawFunctions& law, const Lame& lame, Index t) {
+    const Tet4& e = m_elements[std::size_t(t)];
+    energies[std::size_t(t)] =
+        e.volume * law.energy(lame, e.displacement_gradient(u, m_mesh.tets(), t));
+  });
+  double sum = 0.0;   // in the order of the tets, whatever the threads
+  for (double energy : energies) sum += energy;
   return sum;
 }
 
-void Tissue::internal_force(const Points& u, Points& force) const {
-  force.setZero(m_mesh.node_count(), 3);
-  for (const Part& part : m_parts) {
-    const LawFunctions& law = law_functions(part.material.law());
-    const Lame lame{part.material.mu(), part.material.lambda()};
-    for (Index t : part.tets) {
-      const Tet4& e = m_elements[std::size_t(t)];
-      const Mat3 P = law.stress(lame, e.displacement_gradient(u, m_mesh.tets(), t));
-      for (int a = 0; a < 4; ++a) {
-        force.row(m_mesh.tets()(t, a)) +=
-            (e.volume * (P * e.gradients.row(a).transpose())).transpose();
-      }
-    }
+void Tissue::scatter(const std::vector<NodalForces>& forces, Points& nodal) const {
+  nodal.setZero(m_mesh.node_count(), 3);
+  for (std::size_t t = 0; t < forces.size(); ++t) {
+    for (int a = 0; a < 4; ++a) nodal.row(m_mesh.tets()(Index(t), a)) += forces[t].row(a);
   }
+}
+
+void Tissue::internal_force(const Points& u, Points& force) const {
+  std::vector<NodalForces> forces(m_elements.size());
+  for_all_tets([&](const LawFunctions& law, const Lame& lame, Index t) {
+    const Tet4& e = m_elements[std::size_t(t)];
+    const Mat3 P = law.stress(lame, e.displacement_gradient(u, m_mesh.tets(), t));
+    forces[std::size_t(t)] = e.volume * e.gradients * P.transpose();
+  });
+  scatter(forces, force);
 }
 
 ElementMap Tissue::map_elements(const Indices& slot_of, const BlockMatrix& K) const {
@@ -111,34 +141,48 @@ void element_blocks(const Mat9& A, const Tet4& e, Mat3 (&blocks)[10]) {
   }
 }
 
+void add_blocks(const Mat3 (&blocks)[10], const ElementMap& map, Index t, BlockMatrix& K) {
+  const BlockMatrix::Slot* slot = &map.slots[std::size_t(t) * 10];
+  for (int k = 0; k < 10; ++k) {
+    if (map.transposed[std::size_t(t)] >> k & 1u) {
+      K.add(slot[k], blocks[k].transpose());
+    } else {
+      K.add(slot[k], blocks[k]);
+    }
+  }
+}
+
 }  // namespace
 
 void Tissue::tangent(const Points& u, bool definite, const ElementMap& map, Points& force,
                      BlockMatrix& K) const {
-  force.setZero(m_mesh.node_count(), 3);
-  Mat3 P, blocks[10];
-  Mat9 A;
+  std::vector<NodalForces> forces(m_elements.size());
+  struct Blocks {
+    Mat3 block[10];
+  };
+  // Rounds of tets: computed by all threads, then added by one, in the order of the tets.
+  constexpr Index round = 8 * tets_per_chunk;
+  std::vector<Blocks> blocks(std::size_t(std::min(round, m_mesh.tet_count())));
   for (const Part& part : m_parts) {
-    const LawFunctions& law = law_functions(part.material.law());
-    const Lame lame{part.material.mu(), part.material.lambda()};
-    for (Index t : part.tets) {
-      const Tet4& e = m_elements[std::size_t(t)];
-      law.tangent(lame, e.displacement_gradient(u, m_mesh.tets(), t), definite, P, A);
-      for (int a = 0; a < 4; ++a) {
-        force.row(m_mesh.tets()(t, a)) +=
-            (e.volume * (P * e.gradients.row(a).transpose())).transpose();
-      }
-      element_blocks(A, e, blocks);
-      const BlockMatrix::Slot* slot = &map.slots[std::size_t(t) * 10];
-      for (int k = 0; k < 10; ++k) {
-        if (map.transposed[std::size_t(t)] >> k & 1u) {
-          K.add(slot[k], blocks[k].transpose());
-        } else {
-          K.add(slot[k], blocks[k]);
-        }
+    const auto count = Index(part.tets.size());
+    for (Index from = 0; from < count; from += round) {
+      const Index to = std::min(count, from + round);
+      for_tets(part, from, to, [&](const LawFunctions& law, const Lame& lame, Index i) {
+        const Index t = part.tets[std::size_t(i)];
+        const Tet4& e = m_elements[std::size_t(t)];
+        Mat3 P;
+        Mat9 A;
+        law.tangent(lame, e.displacement_gradient(u, m_mesh.tets(), t), definite, P, A);
+        forces[std::size_t(t)] = e.volume * e.gradients * P.transpose();
+        element_blocks(A, e, blocks[std::size_t(i - from)].block);
+      });
+      for (Index i = from; i < to; ++i) {
+        const Index t = part.tets[std::size_t(i)];
+        add_blocks(blocks[std::size_t(i - from)].block, map, t, K);
       }
     }
   }
+  scatter(forces, force);
 }
 
 Points Tissue::gravity_force(const Vec3& gravity) const {
@@ -163,10 +207,10 @@ double Tissue::mass() const {
 
 Eigen::VectorXd Tissue::jacobians(const Points& u) const {
   Eigen::VectorXd result(m_mesh.tet_count());
-  for (Index t = 0; t < m_mesh.tet_count(); ++t) {
-    result[t] =
-        1.0 + volume_change(m_elements[std::size_t(t)].displacement_gradient(u, m_mesh.tets(), t));
-  }
+  for_all_tets([&](const LawFunctions&, const Lame&, Index t) {
+    const Tet4& e = m_elements[std::size_t(t)];
+    result[t] = 1.0 + volume_change(e.displacement_gradient(u, m_mesh.tets(), t));
+  });
   return result;
 }
 

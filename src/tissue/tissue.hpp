@@ -22,6 +22,8 @@ class Tissue {
   Tissue(const Mesh& mesh, const std::vector<std::pair<Index, Material>>& materials);
 
   const Mesh& mesh() const { return m_mesh; }
+  // Threads that loops over tets may use; no result depends on it.
+  void set_threads(int threads) { m_threads = threads; }
 
   double energy(const Points& u) const;  // uJ
   // Internal force: gradient of the energy (mN), N x 3.
@@ -46,10 +48,21 @@ class Tissue {
     Material material;
     Indices tets;
   };
+  using NodalForces = Eigen::Matrix<double, 4, 3, Eigen::RowMajor>;   // of one tet
+
+  // Calls work(law, its constants, i) for the tets i = from .. to - 1 of a part, in chunks that the
+  // threads share.
+  template <class Work>
+  void for_tets(const Part& part, Index from, Index to, const Work& work) const;
+  // Calls work(law, its constants, tet) for all tets.
+  template <class Work>
+  void for_all_tets(const Work& work) const;
+  void scatter(const std::vector<NodalForces>& forces, Points& nodal) const;
   Mesh m_mesh;
   std::vector<Part> m_parts;
   std::vector<Tet4> m_elements;
   double m_scale = 0.0;
+  int m_threads = 1;
 };
 
 }  // namespace brainshift

@@ -2,31 +2,77 @@
 // module is GPL-2+, see THIRD_PARTY.md.
 #include <cholmod.h>
 
+#include <algorithm>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "brainshift/error.hpp"
 #include "linear/spd_solver.hpp"
+#include "threads/for_chunks.hpp"
 
 namespace brainshift {
 namespace {
 
-class CholmodSolver final : public SpdSolver {
+// Columns solved for together: enough for the dense kernels, few enough to share among threads.
+constexpr Eigen::Index columns_per_chunk = 16;
+
+[[noreturn]] void fail(const char* what, int status) {
+  throw Error(ErrorCode::linear_solver,
+              std::string("CHOLMOD ") + what + " failed: " +
+                  (status == CHOLMOD_OUT_OF_MEMORY ? "out of memory"
+                                                   : "status " + std::to_string(status)));
+}
+
+void configure(cholmod_common& common) {
+  cholmod_start(&common);
+  common.print = 0;
+  common.supernodal = CHOLMOD_SUPERNODAL;
+  common.nmethods = 1;
+  common.method[0].ordering = CHOLMOD_NATURAL;
+  common.postorder = 1;
+  common.try_catch = 1;  // no message handler of the host's is called
+  common.quick_return_if_not_posdef = 1;
+}
+
+// Solves with a factor that several may read at once, in a workspace of its own.
+class Workspace {
  public:
-  CholmodSolver() {
-    cholmod_start(&m_common);
-    m_common.print = 0;
-    m_common.supernodal = CHOLMOD_SUPERNODAL;
-    m_common.nmethods = 1;
-    m_common.method[0].ordering = CHOLMOD_NATURAL;
-    m_common.postorder = 1;
-    m_common.try_catch = 1;  // no message handler of the host's is called
-    m_common.quick_return_if_not_posdef = 1;
-  }
-  ~CholmodSolver() override {
-    cholmod_free_factor(&m_factor, &m_common);
+  Workspace() { configure(m_common); }
+  ~Workspace() {
     cholmod_free_dense(&m_solution, &m_common);
     cholmod_free_dense(&m_y, &m_common);
     cholmod_free_dense(&m_e, &m_common);
+    cholmod_finish(&m_common);
+  }
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
+
+  void solve(cholmod_factor* factor, Eigen::Ref<Eigen::MatrixXd> x) {
+    cholmod_dense b{};
+    b.nrow = std::size_t(x.rows());
+    b.ncol = std::size_t(x.cols());
+    b.nzmax = b.nrow * b.ncol;
+    b.d = b.nrow;
+    b.x = x.data();
+    b.xtype = CHOLMOD_REAL;
+    b.dtype = CHOLMOD_DOUBLE;
+    cholmod_solve2(CHOLMOD_A, factor, &b, nullptr, &m_solution, nullptr, &m_y, &m_e, &m_common);
+    if (m_common.status < CHOLMOD_OK) fail("solve", m_common.status);
+    x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(m_solution->x), x.rows(),
+                                          x.cols());
+  }
+
+ private:
+  cholmod_common m_common{};
+  cholmod_dense *m_solution = nullptr, *m_y = nullptr, *m_e = nullptr;
+};
+
+class CholmodSolver final : public SpdSolver {
+ public:
+  CholmodSolver() { configure(m_common); }
+  ~CholmodSolver() override {
+    cholmod_free_factor(&m_factor, &m_common);
     cholmod_finish(&m_common);
   }
   CholmodSolver(const CholmodSolver&) = delete;
@@ -36,32 +82,31 @@ class CholmodSolver final : public SpdSolver {
     cholmod_free_factor(&m_factor, &m_common);
     cholmod_sparse a = view(matrix);
     m_factor = cholmod_analyze(&a, &m_common);
-    check("analysis");
+    if (m_common.status < CHOLMOD_OK) fail("analysis", m_common.status);
   }
 
   bool factorise(const BlockMatrix& matrix) override {
     cholmod_sparse a = view(matrix);
     cholmod_factorize(&a, m_factor, &m_common);
     if (m_common.status == CHOLMOD_NOT_POSDEF) return false;
-    check("factorisation");
+    if (m_common.status < CHOLMOD_OK) fail("factorisation", m_common.status);
     return true;
   }
 
+  // Chunks do not depend on the threads, so neither do the bits.
   void solve(Eigen::MatrixXd& x) override {
-    cholmod_dense b{};
-    b.nrow = std::size_t(x.rows());
-    b.ncol = std::size_t(x.cols());
-    b.nzmax = b.nrow * b.ncol;
-    b.d = b.nrow;
-    b.x = x.data();
-    b.xtype = CHOLMOD_REAL;
-    b.dtype = CHOLMOD_DOUBLE;
-    cholmod_solve2(CHOLMOD_A, m_factor, &b, nullptr, &m_solution, nullptr, &m_y, &m_e, &m_common);
-    check("solve");
-    x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(m_solution->x), x.rows(),
-                                          x.cols());
+    const auto chunks = Index((x.cols() + columns_per_chunk - 1) / columns_per_chunk);
+    while (m_workspaces.size() < std::size_t(chunks)) {
+      m_workspaces.push_back(std::make_unique<Workspace>());
+    }
+    for_chunks(m_threads, chunks, [&](Index c) {
+      const Eigen::Index from = c * columns_per_chunk;
+      const Eigen::Index count = std::min(columns_per_chunk, x.cols() - from);
+      m_workspaces[std::size_t(c)]->solve(m_factor, x.middleCols(from, count));
+    });
   }
 
+  void set_threads(int threads) override { m_threads = threads; }
   double factor_nonzeros() const override { return m_common.lnz; }
 
  private:
@@ -81,17 +126,10 @@ class CholmodSolver final : public SpdSolver {
     return a;
   }
 
-  void check(const char* what) const {
-    if (m_common.status >= CHOLMOD_OK) return;
-    const bool memory = m_common.status == CHOLMOD_OUT_OF_MEMORY;
-    throw Error(ErrorCode::linear_solver,
-                std::string("CHOLMOD ") + what + " failed: " +
-                    (memory ? "out of memory" : "status " + std::to_string(m_common.status)));
-  }
-
   cholmod_common m_common{};
   cholmod_factor* m_factor = nullptr;
-  cholmod_dense *m_solution = nullptr, *m_y = nullptr, *m_e = nullptr;
+  std::vector<std::unique_ptr<Workspace>> m_workspaces;   // one per chunk of columns
+  int m_threads = 1;
 };
 
 }  // namespace

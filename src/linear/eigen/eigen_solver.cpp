@@ -3,6 +3,7 @@
 
 #include "brainshift/error.hpp"
 #include "linear/spd_solver.hpp"
+#include "threads/for_chunks.hpp"
 
 namespace brainshift {
 namespace {
@@ -21,7 +22,12 @@ class EigenSolver final : public SpdSolver {
     return true;
   }
 
-  void solve(Eigen::MatrixXd& x) override { x = m_llt.solve(x).eval(); }
+  void solve(Eigen::MatrixXd& x) override {
+    for_chunks(m_threads, Index(x.cols()),
+               [&](Index c) { x.col(c) = m_llt.solve(x.col(c)).eval(); });
+  }
+
+  void set_threads(int threads) override { m_threads = threads; }
 
   double factor_nonzeros() const override { return m_nonzeros; }
 
@@ -38,6 +44,7 @@ class EigenSolver final : public SpdSolver {
   // The matrix comes in nested-dissection order, so none is chosen here.
   Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> m_llt;
   double m_nonzeros = 0.0;
+  int m_threads = 1;
 };
 
 }  // namespace

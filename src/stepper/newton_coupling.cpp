@@ -111,6 +111,8 @@ void Newton::couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step
   if (count > 0) {
     const McpSolution found = solve_mcp(W, q, lower, upper);
     step.coupling = found.z;
+    m_report.coupling_rank = found.report.rank;
+    m_report.coupling_unique = found.report.unique;
     if (found.report.status != McpStatus::solved) step.coupling.setConstant(std::nan(""));
   }
   step.dx = free_dx + Z * step.coupling;

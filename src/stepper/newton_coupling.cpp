@@ -9,6 +9,25 @@
 #include "stepper/newton.hpp"
 
 namespace brainshift {
+namespace {
+
+// A row that gives way by less than this part of what a node of the tissue would: both its sides are
+// held, and rounding of its gap would make forces without bound of it.
+constexpr double immovable = 1e-10;
+
+// Takes such rows out of W z + q, z within +-bound: they carry nothing. C: columns are the gradients
+// of the rows on tissue; stiffness: of one of its nodes (mN/mm).
+void take_out_held_rows(const Eigen::Ref<const Eigen::MatrixXd>& C, double stiffness,
+                        Eigen::MatrixXd& W, Eigen::VectorXd& q, Eigen::VectorXd& bound) {
+  for (Eigen::Index r = 0; r < q.size(); ++r) {
+    if (W(r, r) * stiffness > immovable * C.col(r).squaredNorm()) continue;
+    W.row(r).setZero();
+    W.col(r).setZero();
+    q[r] = bound[r] = 0.0;
+  }
+}
+
+}  // namespace
 
 Offset operator*(double factor, const Offset& offset) {
   Offset result = offset;
@@ -101,15 +120,15 @@ void Newton::couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step
     W += D.back().transpose() * Y.back();
     q += D.back().transpose() * free_dq.back();
   }
-  Eigen::VectorXd lower(count), upper(count);
+  Eigen::VectorXd bound(count);
   for (Eigen::Index r = 0; r < count; ++r) {
     q[r] += m_couplings[std::size_t(r)].gap;
-    upper[r] = m_couplings[std::size_t(r)].bound;
-    lower[r] = -upper[r];
+    bound[r] = m_couplings[std::size_t(r)].bound;
   }
+  take_out_held_rows(C, m_cache.stiffness.mean_diagonal(), W, q, bound);
   step.coupling.resize(count);
   if (count > 0) {
-    const McpSolution found = solve_mcp(W, q, lower, upper);
+    const McpSolution found = solve_mcp(W, q, -bound, bound);
     step.coupling = found.z;
     m_report.coupling_rank = found.report.rank;
     m_report.coupling_unique = found.report.unique;

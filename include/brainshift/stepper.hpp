@@ -80,6 +80,7 @@ struct SolveReport {
   // rank of the rows whose force ended between its bounds; false where those rows are dependent, as
   // they are when two rigid devices share a track: their sum is found, and of all the ways to share
   // it the one of least norm. Motions and resultants are unique all the same.
+  // Rows held on both sides carry nothing and count in neither.
   Index coupling_rank = 0;
   bool coupling_unique = true;
   double seconds = 0.0, seconds_assembly = 0.0, seconds_factor = 0.0, seconds_line_search = 0.0;

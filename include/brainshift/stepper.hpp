@@ -76,6 +76,13 @@ struct SolveReport {
   Index active_contacts = 0;
   double tie_gap = 0.0;           // mm; largest transverse gap between track and device
   Index coupling_rows = 0;
+  // Of the last problem of the coupling rows that was solved (0 rows and true where there was none):
+  // rank of the rows whose force ended between its bounds; false where those rows are dependent, as
+  // they are when two rigid devices share a track: their sum is found, and of all the ways to share
+  // it the one of least norm. Motions and resultants are unique all the same.
+  // Rows held on both sides carry nothing and count in neither.
+  Index coupling_rank = 0;
+  bool coupling_unique = true;
   double seconds = 0.0, seconds_assembly = 0.0, seconds_factor = 0.0, seconds_line_search = 0.0;
   std::string message;            // one sentence; the hint when not converged
 

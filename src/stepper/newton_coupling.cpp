@@ -9,6 +9,31 @@
 #include "stepper/newton.hpp"
 
 namespace brainshift {
+namespace {
+
+// A row that gives way by less than this part of what a node of the tissue would: both its sides are
+// held, and rounding of its gap would make forces without bound of it.
+constexpr double immovable = 1e-10;
+
+// Takes such rows out of W z + q, lower <= z <= upper: they carry nothing. C: columns are the gradients
+// of the rows on tissue; stiffness: of one of its nodes (mN/mm).
+void take_out_held_rows(const Eigen::Ref<const Eigen::MatrixXd>& C, double stiffness,
+                        Eigen::MatrixXd& W, Eigen::VectorXd& q, Eigen::VectorXd& lower,
+                        Eigen::VectorXd& upper) {
+  for (Eigen::Index r = 0; r < q.size(); ++r) {
+    if (W(r, r) * stiffness > immovable * C.col(r).squaredNorm()) continue;
+    W.row(r).setZero();
+    W.col(r).setZero();
+    q[r] = lower[r] = upper[r] = 0.0;
+  }
+}
+
+// What a row leaves open: the distance of a tie, how far a stop has been passed; slip is free to be.
+double open_gap(const CouplingRow& row, double gap) {
+  return row.one_sided() ? std::max(0.0, -gap) : std::abs(gap);
+}
+
+}  // namespace
 
 Offset operator*(double factor, const Offset& offset) {
   Offset result = offset;
@@ -107,10 +132,13 @@ void Newton::couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step
     upper[r] = m_couplings[std::size_t(r)].upper;
     lower[r] = m_couplings[std::size_t(r)].lower;
   }
+  take_out_held_rows(C, m_cache.stiffness.mean_diagonal(), W, q, lower, upper);
   step.coupling.resize(count);
   if (count > 0) {
     const McpSolution found = solve_mcp(W, q, lower, upper);
     step.coupling = found.z;
+    m_report.coupling_rank = found.report.rank;
+    m_report.coupling_unique = found.report.unique;
     if (found.report.status != McpStatus::solved) step.coupling.setConstant(std::nan(""));
   }
   step.dx = free_dx + Z * step.coupling;
@@ -118,11 +146,6 @@ void Newton::couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step
   for (std::size_t d = 0; d < free_dq.size(); ++d) {
     step.dq.push_back(free_dq[d] + Y[d] * step.coupling);
   }
-}
-
-// What a row leaves open: the distance of a tie, how far a stop has been passed; slip is free to be.
-static double open_gap(const CouplingRow& row, double gap) {
-  return row.one_sided() ? std::max(0.0, -gap) : std::abs(gap);
 }
 
 // First-order fall of the merit E + sum bound |slip| + weight * sum |open tie|.

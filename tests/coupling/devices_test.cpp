@@ -3,43 +3,20 @@
 
 #include <gtest/gtest.h>
 
-#include "brainshift/brainshift.hpp"
 #include "support/expect_error.hpp"
-#include "support/shapes.hpp"
+#include "support/leaning_block.hpp"
 
 namespace brainshift {
 namespace {
 
 using test::expect_error;
-using test::make_box;
+using test::lead;
+using test::leaning;
+using test::leaning_block;
+using test::whole;
+using test::wire_only;
 
-const Vec3 tip(19.3, 20.7, 22.1), outward = Vec3(0.1, 0.05, 1.0).normalized();
-constexpr double wire = 50.0;   // mm from the tip: above the block, where the skull would be
-
-// Block 40 x 40 x 60 mm, held at its base, leaning towards +x under a part of gravity.
-Scene leaning_block(double part = 0.02) {
-  const auto box = make_box({40.0, 40.0, 60.0}, 4, 4, 6);
-  const Mesh mesh(box.points, box.tets);
-  Scene scene{mesh, {{0, Material(Law::corotational, 6.0, 0.45, 1.04e-6)}}, {part * 9810.0, 0, 0}};
-  scene.balanced_reference = false;
-  Indices base;
-  for (Index i = 0; i < mesh.node_count(); ++i) {
-    if (mesh.nodes()(i, 2) == 0.0) base.push_back(i);
-  }
-  scene.constraints.fix("base", base);
-  return scene;
-}
-
-BeamDevice lead(double bending = 5000.0) {   // mN mm^2
-  DeviceOptions options;
-  options.bending = bending;
-  return make_device("3389", 55.0, options);
-}
-
-Hold whole() { return {0.0, wire, false, 0.0}; }
-Hold wire_only(double slack = 0.0) {
-  return {std::numeric_limits<double>::infinity(), wire, false, slack};
-}
+const Vec3 tip = test::lead_tip, outward = test::lead_outward;
 
 double largest(const Points& p) { return p.rowwise().norm().maxCoeff(); }
 

@@ -10,6 +10,10 @@ double power_of_two_near(double value) {
   return std::exp2(std::round(std::log2(value)));
 }
 
+// Entries below this part of the largest diagonal one are rounding: rows of them are left as they
+// are, or they would outweigh all others. Units 10^15 apart between rows stay within it.
+constexpr double nothing = 1e-30;
+
 }  // namespace
 
 Scaling scaling_of(const MatrixXd& M) {
@@ -22,7 +26,7 @@ Scaling scaling_of(const MatrixXd& M) {
       power_of_two_near(largest_diagonal > 0.0 ? largest_diagonal : M.cwiseAbs().maxCoeff());
   Scaling scaling{VectorXd::Constant(n, 1.0 / unit), VectorXd::Ones(n)};
   for (Index i = 0; i < n; ++i) {
-    if (!(M(i, i) > 0.0)) continue;
+    if (!(M(i, i) > nothing * unit)) continue;
     const double factor = 1.0 / std::sqrt(M(i, i) / unit);
     scaling.row[i] *= factor;
     scaling.column[i] = factor;
@@ -36,7 +40,7 @@ Scaling scaling_of(const MatrixXd& M) {
         (scaling.row.asDiagonal() * M * scaling.column.asDiagonal()).cwiseAbs();
     bool changed = false;
     const auto adjust = [&](double largest, double& factor) {
-      if (largest == 0.0 || (largest < good_enough && largest > 1.0 / good_enough)) return;
+      if (largest <= nothing || (largest < good_enough && largest > 1.0 / good_enough)) return;
       factor *= power_of_two_near(1.0 / std::sqrt(largest));
       changed = true;
     };

@@ -171,5 +171,22 @@ TEST(Certificate, holds_on_random_matrices_of_no_class) {
   EXPECT_GT(solved, 80);
 }
 
+// A row of rounding must not hide another row's violation.
+TEST(Failure, ARowOfRoundingHidesNoOther) {
+  for (double tiny : {1e-61, 1e-45, 1e-31}) {
+    for (bool boxed : {true, false}) {
+      Eigen::MatrixXd M = Eigen::MatrixXd::Zero(2, 2);
+      M.diagonal() << tiny, 1.0;
+      const Eigen::Vector2d q(3.5e-15, -1e-2);
+      const double bound = boxed ? 0.0 : 1.0;
+      const Eigen::Vector2d upper(bound, std::numeric_limits<double>::infinity());
+      const McpSolution found = solve_mcp(M, q, -upper, upper);
+      ASSERT_EQ(found.report.status, McpStatus::solved) << tiny;
+      EXPECT_NEAR(found.z[1], 1e-2, 1e-12) << tiny << (boxed ? " boxed" : "");
+      EXPECT_NEAR(found.w[1], 0.0, 1e-12) << tiny;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace brainshift::test

@@ -43,7 +43,7 @@ nlohmann::json to_json(const LeadResult& r) {
           {"contacts_mm", to_json(d.contact_centres)},
           {"bow_mm", d.bow}, {"bow_from_tip_mm", d.bow_arc},
           {"bow_direction", to_json(d.bow_direction)},
-          {"force_on_skull_mN", to_json(d.anchor_force)},
+          {"force_of_skull_mN", to_json(d.anchor_force)},
           {"track_mm", to_json(d.path)}, {"track_arc_mm", arcs},
           {"track_force_on_tissue_mN", to_json(d.path_forces)},
           {"track_mean_motion_mm", to_json(r.track_motion)},
@@ -126,7 +126,7 @@ std::string stages_csv(const std::vector<StageResult>& stages) {
   return out.str();
 }
 
-// One row per stage and side: tip, retraction, bow, force on the skull, contact centres.
+// One row per stage and side: tip, retraction, bow, force of skull (or frame) on the device, contact centres.
 std::string electrodes_csv(const std::vector<StageResult>& stages) {
   std::ostringstream out;
   out.precision(10);

@@ -14,6 +14,7 @@ using test::lead;
 using test::leaning;
 using test::leaning_block;
 using test::whole;
+using test::wire;
 using test::wire_only;
 
 const Vec3 tip = test::lead_tip, outward = test::lead_outward;
@@ -90,6 +91,71 @@ TEST(Devices, ALeadWithoutStiffnessLeavesTheTissueUndisturbed) {
             0.02 * largest(without.displacement()));
 }
 
+// A wire with slack gives way along its line until the slack is used up, never across.
+TEST(Devices, AWireWithSlackIsHeldOnlyAtItsEnd) {
+  const double bound = 0.05;   // kPa: tissue that moves along the wire takes it with it
+  const Vec3 across = outward.unitOrthogonal();
+  double last = 0.0;
+  for (double slack : {0.0, 0.05, 0.1, 5.0}) {
+    Scene scene = leaning_block(0.0);
+    Stepper stepper(std::move(scene));
+    TrackOptions track;
+    track.shear_bound = bound;
+    const DeviceId id = stepper.insert(lead(), {tip, outward}, wire_only(slack), track);
+    stepper.set_gravity({0.0, 0.0, -0.05 * 9810.0});   // the block sinks along the wire
+    const SolveReport report = stepper.solve_static();
+    ASSERT_TRUE(report.converged()) << slack << report.message;
+    const DeviceState d = stepper.device(id);
+    Eigen::Index anchor;
+    (stepper.device_model(id).arcs().array() - wire).abs().minCoeff(&anchor);
+    const Vec3 moved = d.nodes.row(anchor).transpose() -
+                       (tip + stepper.device_model(id).arcs()[anchor] * outward);
+    EXPECT_LE(std::abs(moved.dot(across)), 1e-8);
+    EXPECT_LE(-moved.dot(outward), slack + 1e-8);
+    EXPECT_GE(-moved.dot(outward), last - 1e-8);
+    last = -moved.dot(outward);
+    if (slack > 0.0 && slack < 1.0) {   // used up, and the skull holds the rest
+      EXPECT_NEAR(last, slack, 1e-8);
+      EXPECT_GT(d.anchor_force.dot(outward), 1e-3);   // mN, of the skull on the wire
+    }
+    if (slack > 1.0) {
+      EXPECT_LT(last, 4.0);
+      EXPECT_LE(std::abs(d.anchor_force.dot(outward)), 1e-6);   // mN: carried along
+    }
+    std::printf("slack %.2f mm: the wire slid in by %.4f mm; the skull holds it with %.3f mN\n", slack,
+                last, d.anchor_force.dot(outward));
+  }
+}
+
+// Further down the same line: what is crossed there joins the track, the rest stays as it was.
+TEST(Devices, ALeadGoesDeeperThroughItsCannula) {
+  Stepper stepper(leaning_block(0.01));
+  ASSERT_TRUE(stepper.solve_static().converged());
+  const double depth = 12.0;
+  const DeviceId id = stepper.insert(make_device("cannula", 45.0), {tip + depth * outward, outward},
+                                     {0.0, wire - depth, false, 0.0});
+  const Points short_track = stepper.device(id).path;
+  stepper.exchange(id, lead(), {depth, wire, false, 0.0}, depth);
+  const Points before = stepper.displacement();
+  ASSERT_TRUE(stepper.solve_static().converged());
+  EXPECT_LE(largest(stepper.displacement() - before), 1e-9);
+  const DeviceState d = stepper.device(id);
+  ASSERT_GT(d.path.rows(), short_track.rows());
+  EXPECT_LE(largest(d.path.bottomRows(short_track.rows()) - short_track), 1e-9);
+  EXPECT_LE((d.nodes.row(0).transpose() - tip).norm(), 1e-9);
+  for (Eigen::Index p = 1; p < d.path_arcs.size(); ++p) EXPECT_GT(d.path_arcs[p], d.path_arcs[p - 1]);
+  // Free below the cannula, held inside it.
+  stepper.set_gravity(leaning(0.02));
+  ASSERT_TRUE(stepper.solve_static().converged());
+  const DeviceState bent = stepper.device(id);
+  EXPECT_GT((bent.nodes.row(0).transpose() - tip).norm(), 0.005);
+  for (Eigen::Index i = 0; i < bent.nodes.rows(); ++i) {
+    const double arc = stepper.device_model(id).arcs()[i];
+    if (arc < depth) continue;
+    EXPECT_LE((bent.nodes.row(i).transpose() - tip - arc * outward).norm(), 1e-9) << arc;
+  }
+}
+
 TEST(Devices, BranchesFromOneSnapshotAreTheSameBits) {
   Stepper stepper(leaning_block(0.01));
   ASSERT_TRUE(stepper.solve_static().converged());
@@ -112,6 +178,8 @@ TEST(Devices, AreRefusedWhereTheyCannotBe) {
                [&] { stepper.insert(lead(), {Vec3(100, 0, 0), outward}, wire_only()); });
   expect_error(ErrorCode::invalid_argument, {"nothing holds"},
                [&] { stepper.insert(lead(), {tip, outward}, Hold{}); });
+  expect_error(ErrorCode::invalid_argument, {"slack"},
+               [&] { stepper.insert(lead(), {tip, outward}, wire_only(-1.0)); });
   expect_error(ErrorCode::invalid_argument, {"unit length"},
                [&] { stepper.insert(lead(), {tip, 2.0 * outward}, wire_only()); });
   expect_error(ErrorCode::invalid_argument, {"id 7"}, [&] { stepper.remove(7); });

@@ -75,6 +75,26 @@ TEST_F(Refusals, NameVolumesOfFluidThatCannotBe) {
   expect_refusal("--right nanmL", {"nan"});
 }
 
+TEST_F(Refusals, NameTrajectoriesThatCannotBe) {
+  expect_refusal("--target-right 11 -12 90", {"right", "(11.00 -12.00 90.00)", "not in tissue"});
+  expect_refusal("--target-right 300 0 0", {"right", "not in tissue"});
+  expect_refusal("--target-right -11 -12 -8", {"right", "other half"});
+  expect_refusal("--lateral=-60", {"crosses the midline"});
+  expect_refusal("--sides left --lateral=-60", {"left", "crosses the midline"});
+  expect_refusal("--target VIM", {"landmark 'VIM_"});
+  expect_refusal("--target-left nan 0 0 --sides left", {"left", "not finite"});
+  expect_refusal("--sagittal=-30", {"leaves the tissue"});   // out at the base, and in again
+}
+
+TEST_F(Refusals, NameDevicesThatCannotBe) {
+  expect_refusal("--lead spaghetti", {"'spaghetti'", "3389"});
+  expect_refusal("--test-electrode spaghetti", {"'spaghetti'"});
+  expect_refusal("--bending=-1", {"--bending"});
+  expect_refusal("--friction=-1", {"--friction"});
+  expect_refusal("--slack nan", {"--slack"});
+  expect_refusal("--cannula-depth 60", {"--cannula-depth"});
+}
+
 TEST_F(Refusals, NameAMissingFile) {
   fs::remove(m_folder / "head" / "falx.vtp");
   expect_refusal("", {"falx.vtp"});

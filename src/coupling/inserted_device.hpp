@@ -16,6 +16,7 @@ struct DeviceMotion {
   // Per path point: forces (mN) of the device on the tissue along two fixed directions across and
   // one along the device, as multipliers of its rows.
   std::vector<Vec3> multipliers;
+  Points velocity;   // of the nodes, mm/s
 };
 
 struct InsertedDevice {

@@ -48,8 +48,8 @@ class Newton {
 
   // Unbalanced force with the state's own multipliers; what fixed rows carry stays in.
   Offset unbalanced(const MechanicalState& state);
-  // Fills the certificate of `report` for this state.
-  void certify(const MechanicalState& state);
+  // Fills the certificate of `report` for this state, without any offset; true: it holds.
+  bool certify(const MechanicalState& state);
 
  private:
   struct Step {

@@ -1,6 +1,7 @@
 // What a state is worth: residual, complementarity, violation, energies.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "stepper/newton.hpp"
 #include "stepper/norms.hpp"
@@ -21,6 +22,10 @@ void Newton::measure() {
                            m_eq.force_floor()});
   if (m_euler) scale = std::max({scale, max_norm(m_inertia), max_norm(m_damping)});
   m_report.residual = std::max(max_norm(rest), device_residual()) / scale;
+  // A norm may skip what is not a number; a certificate must not.
+  bool finite = std::isfinite(scale) && total.allFinite();
+  for (const Eigen::VectorXd& load : m_device_load) finite = finite && load.allFinite();
+  if (!finite) m_report.residual = std::numeric_limits<double>::infinity();
   measure_coupling();
   m_report.complementarity = 0.0;
   m_report.violation = 0.0;
@@ -53,7 +58,7 @@ Offset Newton::unbalanced(const MechanicalState& state) {
   return total;
 }
 
-void Newton::certify(const MechanicalState& state) {
+bool Newton::certify(const MechanicalState& state) {
   m_state = state;
   m_offset = no_offset();
   refresh();
@@ -61,6 +66,7 @@ void Newton::certify(const MechanicalState& state) {
   m_report.energy = m_eq.stored_energy(state.u) + device_energy(state.devices);
   m_report.kinetic_energy = m_euler ? m_euler->kinetic_energy(state.u, state.devices) : 0.0;
   m_report.smallest_jacobian = m_eq.tissue().jacobians(state.u).minCoeff();
+  return small_enough(m_report.last_correction);
 }
 
 }  // namespace brainshift

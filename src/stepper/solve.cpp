@@ -80,7 +80,9 @@ bool Solve::halve_load_step(Newton::Outcome outcome) {
 }
 
 void Solve::finish() {
-  m_newton.certify(m_balanced);
+  if (!m_newton.certify(m_balanced)) {
+    return fail("the last iterate, measured once more, does not meet the tolerances");
+  }
   for (std::size_t d = 0; d < m_balanced.devices.size(); ++d) {
     DeviceMotion& motion = m_balanced.devices[d];
     if (m_euler) {

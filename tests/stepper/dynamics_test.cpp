@@ -1,6 +1,7 @@
 // Backward Euler: against the modes of a linear body, free flight, the static limit, contact, devices.
 #include <cmath>
 #include <random>
+#include <sstream>
 
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
@@ -16,6 +17,25 @@ namespace {
 using test::expect_error;
 using test::largest_distance;
 using test::same_bits;
+
+// Keeps the largest figure of a test in its report (--gtest_output=xml).
+class Worst {
+ public:
+  explicit Worst(std::string name) : m_name(std::move(name)) {}
+  ~Worst() {
+    std::ostringstream text;
+    text << m_value;
+    testing::Test::RecordProperty(m_name, text.str());
+  }
+  double operator()(double value) {
+    m_value = std::max(m_value, value);
+    return value;
+  }
+
+ private:
+  std::string m_name;
+  double m_value = 0.0;
+};
 
 double largest(const Points& p) { return p.rowwise().norm().maxCoeff(); }
 
@@ -112,6 +132,7 @@ TEST(Dynamics, ConvergesToTheExactMotionWithOrderOne) {
 TEST(Dynamics, AModeIsDampedByTheClosedFormInEveryStep) {
   const Scene scene = cube(Law::linear);
   const Modes modes(scene);
+  Worst worst("relative_error");
   for (Eigen::Index m : {0, 4}) {
     const double w = modes.w[m];
     for (const Damping& damping :
@@ -129,7 +150,8 @@ TEST(Dynamics, AModeIsDampedByTheClosedFormInEveryStep) {
         for (int i = 0; i < 3; ++i) {
           const double before = size(stepper), h = wh / w;
           ASSERT_TRUE(stepper.step(h).converged());
-          EXPECT_NEAR(size(stepper) / before * std::sqrt(1.0 + c * h + wh * wh), 1.0, 1e-7)
+          const double factor = size(stepper) / before * std::sqrt(1.0 + c * h + wh * wh);
+          EXPECT_LE(worst(std::abs(factor - 1.0)), 1e-7)
               << "mode " << m << ", w h = " << wh << ", c/w = " << c / w;
         }
       }
@@ -150,12 +172,13 @@ TEST(Dynamics, AFreeBodyFallsAndKeepsItsMomentum) {
   const Eigen::VectorXd masses = tissue.node_masses();
   const Vec3 start = v0.transpose() * masses;
   const double dt = 0.004;
+  Worst worst("relative_error_of_momentum");
   for (int i = 1; i <= 10; ++i) {
     const SolveReport report = stepper.step(dt);
     ASSERT_TRUE(report.converged()) << report.message;
     const Vec3 momentum = stepper.velocity().transpose() * masses;
     const Vec3 expected = start + i * dt * tissue.mass() * gravity;
-    EXPECT_LE((momentum - expected).norm(), 1e-7 * expected.norm()) << i;
+    EXPECT_LE(worst((momentum - expected).norm() / expected.norm()), 1e-7) << i;
     const double kinetic = 0.5 * masses.dot(stepper.velocity().rowwise().squaredNorm());
     EXPECT_NEAR(report.kinetic_energy, kinetic, 1e-12 * kinetic);
   }
@@ -188,6 +211,7 @@ TEST(Dynamics, ComesToRestInTheStaticStateWhateverTheStep) {
   rest.csf().set_lost_volume(0, 9000.0);
   ASSERT_TRUE(rest.solve_static().converged());
   EXPECT_GT(rest.contact(0).active, 0);
+  Worst worst("distance_from_static_state");
   for (double dt : {0.03, 0.3, 3.0}) {
     Stepper stepper(busy_scene());
     stepper.csf().set_lost_volume(0, 9000.0);
@@ -201,7 +225,7 @@ TEST(Dynamics, ComesToRestInTheStaticStateWhateverTheStep) {
     }
     EXPECT_LT(steps, 200) << dt;
     RecordProperty("steps_" + std::to_string(dt), steps);
-    EXPECT_LE(largest_distance(stepper.displacement(), rest.displacement()), 1e-7) << dt;
+    EXPECT_LE(worst(largest_distance(stepper.displacement(), rest.displacement())), 1e-7) << dt;
     EXPECT_EQ(stepper.contact(0).active, rest.contact(0).active);
   }
 }
@@ -211,7 +235,8 @@ TEST(Dynamics, AVeryLongStepIsTheStaticSolve) {
   for (Stepper* s : {&rest, &stepper}) s->csf().set_lost_volume(0, 9000.0);
   ASSERT_TRUE(rest.solve_static().converged());
   ASSERT_TRUE(stepper.step(1e6).converged());
-  EXPECT_LE(largest_distance(stepper.displacement(), rest.displacement()), 1e-9);
+  Worst worst("distance_from_static_state");
+  EXPECT_LE(worst(largest_distance(stepper.displacement(), rest.displacement())), 1e-9);
   EXPECT_LE(largest(stepper.velocity()), 1e-5);
   ASSERT_TRUE(stepper.solve_static().converged());
   EXPECT_TRUE(stepper.velocity().isZero(0.0));
@@ -252,6 +277,7 @@ Scene contact_scene() {
 TEST(Dynamics, TheTangentIsTheDerivativeOfTheResidual) {
   const Scene scene = contact_scene();
   const Index n = scene.mesh.node_count();
+  Worst worst("relative_error");
   for (double dt : {1e-4, 1e-2, 1.0}) {
     const Motion motion{dt, {8.0, 0.004}, random_points(n, 30.0, 2)};
     const StepForces forces(scene, {random_points(n, 0.3, 3), {}, {}}, motion, {});
@@ -267,7 +293,7 @@ TEST(Dynamics, TheTangentIsTheDerivativeOfTheResidual) {
       K.multiply(blocks.gather_motion(d), product);
       const Eigen::VectorXd difference =
           (forces.residual(u + e * d) - forces.residual(u - e * d)) / (2.0 * e);
-      EXPECT_LE((product - difference).norm(), 1e-7 * product.norm()) << dt;
+      EXPECT_LE(worst((product - difference).norm() / product.norm()), 1e-7) << dt;
     }
   }
 }
@@ -323,6 +349,7 @@ TEST(Dynamics, LargeStepsOntoAFloorNeverGainEnergy) {
   scene.constraints.obstacle("floor", test::surface_nodes(scene.mesh),
                              Surface::sheet(floor.points, floor.triangles));
   const Eigen::VectorXd masses = Tissue(scene.mesh, scene.materials).node_masses();
+  Worst worst("gain_of_energy_uJ");
   for (double dt : {0.002, 0.02, 0.1}) {
     Stepper stepper(scene);
     stepper.set_velocity(Points::Zero(scene.mesh.node_count(), 3).rowwise() +
@@ -336,7 +363,7 @@ TEST(Dynamics, LargeStepsOntoAFloorNeverGainEnergy) {
       touched = touched || r.active_contacts > 0;
       const double height = scene.gravity.dot(stepper.displacement().transpose() * masses);
       const double now = r.energy + r.kinetic_energy - height;
-      EXPECT_LE(now, before + 1e-9 * (r.energy + r.kinetic_energy)) << dt << " " << i;
+      EXPECT_LE(worst(now - before), 1e-9 * (r.energy + r.kinetic_energy)) << dt << " " << i;
       before = now;
     }
     EXPECT_TRUE(touched) << dt;
@@ -385,26 +412,31 @@ Scene leaning_block() {
   return scene;
 }
 
-DeviceId insert_lead(Stepper& stepper, double density) {
+DeviceId insert_lead(Stepper& stepper, double density, double shear_bound = 0.0) {
   DeviceOptions options;
   options.density = density;
+  TrackOptions track;
+  track.shear_bound = shear_bound;
   return stepper.insert(make_device("3389", 55.0, options),
                         {Vec3(19.3, 20.7, 22.1), Vec3(0.1, 0.05, 1.0).normalized()},
-                        {std::numeric_limits<double>::infinity(), 50.0, false});
+                        {std::numeric_limits<double>::infinity(), 50.0, false}, track);
 }
 
 TEST(Dynamics, AMasslessLeadIsInBalanceAtEveryInstant) {
-  Stepper stepper(leaning_block()), alone(leaning_block());
-  const DeviceId id = insert_lead(stepper, 0.0);
-  for (int i = 0; i < 5; ++i) {
-    const SolveReport report = stepper.step(0.01);
-    ASSERT_TRUE(report.converged()) << report.message;
-    EXPECT_LE(report.residual, 1e-8);
-    EXPECT_LE(stepper.device(id).largest_tie_gap, 1e-8);
-    ASSERT_TRUE(alone.step(0.01).converged());
+  Worst worst("tie_gap_mm");
+  for (double shear_bound : {0.0, 0.05}) {  // without and with friction along it
+    Stepper stepper(leaning_block()), alone(leaning_block());
+    const DeviceId id = insert_lead(stepper, 0.0, shear_bound);
+    for (int i = 0; i < 5; ++i) {
+      const SolveReport report = stepper.step(0.01);
+      ASSERT_TRUE(report.converged()) << report.message;
+      EXPECT_LE(report.residual, 1e-8);
+      EXPECT_LE(worst(stepper.device(id).largest_tie_gap), 1e-8);
+      ASSERT_TRUE(alone.step(0.01).converged());
+    }
+    EXPECT_GT(largest_distance(stepper.displacement(), alone.displacement()), 1e-3);
+    EXPECT_GT(stepper.device(id).bow, 0.0);
   }
-  EXPECT_GT(largest_distance(stepper.displacement(), alone.displacement()), 1e-3);
-  EXPECT_GT(stepper.device(id).bow, 0.0);
 }
 
 TEST(Dynamics, ALeadWithMassMovesWithItAndRestsWithoutIt) {
@@ -498,12 +530,12 @@ TEST(Dynamics, AFailedStepLeavesStateAndSettingsAsTheyWere) {
 TEST(Dynamics, RoundingLimitsShortStepsHonestly) {
   Scene scene = cube(Law::stable_neo_hookean, true);
   scene.gravity = Vec3(0, 0, -standard_gravity);
-  for (double dt : {1e-1, 1e-3, 1e-5, 1e-9, 1e-200}) {
+  for (double dt : {1e-1, 1e-3, 1e-5, 1e-9, 1e-160, 1e-200, 1e-307, 1e200}) {
     Stepper stepper(scene);
     stepper.set_velocity(random_points(scene.mesh.node_count(), 5.0, 1));
     for (int i = 0; i < 3; ++i) {
       const SolveReport report = stepper.step(dt);
-      EXPECT_TRUE(report.converged() || dt < 1e-5) << dt << " " << report.message;
+      EXPECT_TRUE(report.converged() || dt < 1e-5 || dt > 1.0) << dt << " " << report.message;
       if (report.converged()) {
         EXPECT_LE(report.residual, 1e-8) << dt;
       } else {

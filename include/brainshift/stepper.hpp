@@ -114,9 +114,9 @@ struct PointValues {
 
 class Stepper {
  public:
-  // Throws Error naming the culprit (not rigid_mode: a body may float until it is to be in quasi-
-  // static balance): a region without material, a constraint on a node that is not
+  // Throws Error naming the culprit: a region without material, a constraint on a node that is not
   // there, rows that contradict each other, an initial penetration, a fluid above its cavity, ...
+  // Whether something holds each body is asked by solve_static() and check_settings() only.
   explicit Stepper(Scene scene, StepperOptions options = {});
   ~Stepper();
   Stepper(Stepper&&) noexcept;
@@ -196,7 +196,8 @@ class Stepper {
   // An exception out of linearise(), solve() or update() leaves the phase failed.
   StepPhase phase() const;
   // Of the open solve, on its last iterate under the part of the load at hand; status not_converged
-  // until the end. Throws invalid_argument when no solve is begun; so does iterate().
+  // until the end. Throws invalid_argument when no solve is begun; so does iterate(). References are
+  // valid until accept() or reject().
   const SolveReport& progress_report() const;
   const Points& iterate() const;   // N x 3, mm; displacement
 

@@ -86,6 +86,32 @@ TEST(Phases, ByHandGiveTheSameBitsAsInOneCall) {
   }
 }
 
+TEST(Phases, AFailureByHandIsTheFailureOfOneCall) {
+  Scene scene = busy_scene();
+  scene.materials = {{0, Material(Law::st_venant_kirchhoff, 6.0, 0.45, test::tissue_density)}};
+  StepperOptions options;
+  options.smallest_load_step = 1.0 / 32.0;
+  Stepper whole(scene, options), parts(scene, options);
+  for (Stepper* s : {&whole, &parts}) {
+    s->csf().set_lost_volume(0, 9000.0);
+    s->set_gravity(standard_gravity * Vec3(6.0, -1.0, -18.0));
+  }
+  const SolveReport a = whole.solve_static();
+  parts.begin_static();
+  run(parts);
+  ASSERT_EQ(parts.phase(), StepPhase::failed);
+  const SolveReport b = parts.progress_report();
+  parts.reject();
+  EXPECT_FALSE(a.converged());
+  EXPECT_GT(a.load_factor, 0.0);  // some load steps were taken
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.message, b.message);
+  EXPECT_EQ(a.load_factor, b.load_factor);
+  EXPECT_EQ(a.load_steps, b.load_steps);
+  EXPECT_EQ(a.iterations, b.iterations);
+  EXPECT_EQ(a.residual, b.residual);
+}
+
 TEST(Phases, ShowTheIterateAndKeepTheState) {
   Stepper stepper(busy_scene());
   stepper.csf().set_lost_volume(0, 9000.0);

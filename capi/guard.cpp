@@ -24,7 +24,6 @@ brs_status status_of(ErrorCode code) noexcept {
     case ErrorCode::fluid_volume: return BRS_ERROR_FLUID_VOLUME;
     case ErrorCode::linear_solver: return BRS_ERROR_LINEAR_SOLVER;
     case ErrorCode::file: return BRS_ERROR_FILE;
-    case ErrorCode::cancelled: return BRS_CANCELLED;
     case ErrorCode::internal: return BRS_ERROR_INTERNAL;
   }
   return BRS_ERROR_INTERNAL;

@@ -20,7 +20,6 @@ const char* to_string(ErrorCode code) {
     case ErrorCode::fluid_volume: return "fluid_volume";
     case ErrorCode::linear_solver: return "linear_solver";
     case ErrorCode::file: return "file";
-    case ErrorCode::cancelled: return "cancelled";
     case ErrorCode::internal: return "internal";
   }
   return "unknown";

@@ -23,7 +23,10 @@ struct BeamSection {
   double torsion = 0.0;    // GJ, mN mm^2
   double radius = 0.0;     // outer radius, mm: what tissue sees
   double shear = std::numeric_limits<double>::infinity();  // shear factor * GA, mN; infinite: none
-  double line_density = 0.0;                               // kg/mm; 0: weightless
+  // kg/mm. Inertia in Stepper::step(), lumped at the nodes (half of each element to either end,
+  // none in rotation); 0: massless, in balance at every instant. A Stepper never applies the weight
+  // of a device, neither in statics nor in time.
+  double line_density = 0.0;
 };
 
 // Round tube (inner diameter 0: a solid rod) of one material: E in kPa, density in kg/mm^3.
@@ -99,7 +102,7 @@ struct DeviceData {
 struct DeviceOptions {
   double element_size = 2.0;  // mm; elements are no longer than this
   double bending = 0.0;       // EI, mN mm^2; 0: the table's
-  double density = 0.0;       // kg/mm^3 of the full cross-section; 0: weightless
+  double density = 0.0;       // kg/mm^3 of the full cross-section; 0: massless
 };
 
 std::vector<std::string> device_names();

@@ -23,7 +23,6 @@ enum class ErrorCode {
   fluid_volume,             // more fluid asked for than there is, or less than none
   linear_solver,            // a factorisation that failed for reasons of its own (memory, size)
   file,                     // a file that cannot be read or written, or holds something else
-  cancelled,                // the host asked to stop
   internal                  // a promise of the library itself is broken: please report
 };
 

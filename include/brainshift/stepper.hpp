@@ -1,7 +1,7 @@
 // The state of a scene, and the solves that change it.
 //
 // The library knows stages of no procedure: the host changes fluid, gravity or constraints and
-// calls solve_static(). A solve that fails leaves the state as it was.
+// calls solve_static(), or step() to go on in time. A solve that fails leaves the state as it was.
 #pragma once
 
 #include <functional>
@@ -45,7 +45,8 @@ struct StepperOptions {
   int max_iterations = 60;                  // Newton iterations per load step
   double smallest_load_step = 1.0 / 256.0;  // below it: no equilibrium
   double initial_penetration = 1e-6;        // accepted at the start, relative to the diameter
-  // Called after every Newton iteration; false stops the solve with Status::cancelled.
+  // Called after every Newton iteration; false stops the solve with Status::cancelled. It must not
+  // call the phases of a solve.
   std::function<bool(const Progress&)> progress;
 };
 
@@ -58,16 +59,39 @@ enum class Status {
 
 const char* to_string(Status status);
 
+// Rayleigh damping of step(), C = alpha M + beta K0. K0 is the stiffness of tissue and supports when
+// the step begins (each tet's tangent made positive semidefinite); not of fluid, contact or devices.
+struct Damping {
+  double alpha = 0.0;  // 1/s, >= 0
+  double beta = 0.0;   // s, >= 0
+};
+
+// Phases of a solve, see Stepper::begin_static().
+enum class StepPhase {
+  idle,        // no solve is begun
+  begun,       // ready for linearise()
+  linearised,  // ready for solve()
+  solved,      // ready for update()
+  updated,     // ready for linearise() again
+  converged,   // ready for accept()
+  failed       // the report says why; only reject() is left
+};
+
+const char* to_string(StepPhase phase);
+
 // Certificate of a solve: measured on the state that is left behind; of a solve that did not
 // converge (its state is given up), on its last iterate.
 struct SolveReport {
   Status status = Status::not_converged;
-  double residual = 0.0;          // max-norm of unbalanced force / largest of the force norms
+  // max-norm of unbalanced force / largest of the force norms; in time inertia and damping are among
+  // the forces
+  double residual = 0.0;
   double complementarity = 0.0;   // max of |min(gap/L, multiplier/F)| over one-sided rows
   double violation = 0.0;         // mm; largest negative gap
   double last_correction = 0.0;   // mm; max-norm of the last Newton step
   double smallest_jacobian = 1.0; // min over tets of det F
-  double energy = 0.0;            // uJ stored in tissue and supports
+  double energy = 0.0;            // uJ stored in tissue, supports and devices
+  double kinetic_energy = 0.0;    // uJ of tissue and devices; 0 in statics
   double load_factor = 1.0;       // part of the change of load that is in balance
   int load_steps = 0;
   int iterations = 0;             // Newton
@@ -99,6 +123,7 @@ class Stepper {
  public:
   // Throws Error naming the culprit: a region without material, a constraint on a node that is not
   // there, rows that contradict each other, an initial penetration, a fluid above its cavity, ...
+  // Whether something holds each body is asked by solve_static() and check_settings() only.
   explicit Stepper(Scene scene, StepperOptions options = {});
   ~Stepper();
   Stepper(Stepper&&) noexcept;
@@ -114,6 +139,8 @@ class Stepper {
   void set_gravity(const Vec3& gravity);
   void enable(ConstraintId id);
   void disable(ConstraintId id);
+  void set_damping(const Damping& damping);   // throws not_finite, invalid_argument if negative
+  const Damping& damping() const;
 
   // Devices. Each call takes effect at once (nothing moves) and is balanced by the next solve.
   // Inserts a straight, unloaded device: the tissue points that lie on its line now become its
@@ -133,12 +160,62 @@ class Stepper {
   // Throws what solve_static() would throw for the present settings; changes nothing.
   void check_settings() const;
 
-  // Quasi-static equilibrium under the present settings. Throws Error for bad settings
-  // (rigid_mode, fluid_volume); anything else ends in the report's status.
+  // Quasi-static equilibrium under the present settings; leaves all velocities zero. Throws Error
+  // for bad settings (rigid_mode, fluid_volume); anything else ends in the report's status.
   SolveReport solve_static();
+
+  // One step of backward Euler over dt (s), with every force taken at its end: v1 = v0 + dt a,
+  // u1 = u0 + dt v1, M a = forces(u1) - C v1. The mass of tissue is lumped at the nodes; bodies may
+  // float freely. Order one in dt; a step damps the mode of angular frequency w by
+  // 1/sqrt(1 + (w dt)^2), and a very long one ends where solve_static() does. Where Newton does not
+  // get through, the change of load is let go in parts, as in statics; dt itself is never divided.
+  // Positions of 10 mm resolve inertia to the default tolerance for dt above some 1e-5 s; much
+  // shorter steps do not converge. Throws invalid_argument where dt is not positive and finite,
+  // fluid_volume; anything else ends in the report's status.
+  SolveReport step(double dt);
+
+  // The same solves phase by phase; solve_static() and step() are this very loop:
+  //
+  //   stepper.begin_static();                       // or begin_step(dt)
+  //   while (stepper.phase() == StepPhase::begun || stepper.phase() == StepPhase::updated) {
+  //     stepper.linearise();                        // tangent at the iterate
+  //     stepper.solve();                            // active set, factor, coupling: a direction
+  //     stepper.update();                           // line search, new iterate, certificate
+  //   }
+  //   if (stepper.phase() == StepPhase::converged) {
+  //     SolveReport report = stepper.accept();      // the iterate becomes the state
+  //   } else {
+  //     explain(stepper.progress_report().message);
+  //     stepper.reject();                           // the state stays that of before the begin
+  //   }
+  //
+  // A call out of order throws Error(invalid_argument) naming the phases it needs. From begin_... to
+  // accept() or reject() the solve works on its own copy: everything below shows the state of before;
+  // settings may be changed and count from the next begin; calls that change the state (devices,
+  // set_velocity, restore) are refused. reject() may be called at any time in between.
+  void begin_static();           // throws as solve_static(); no solve is begun then
+  void begin_step(double dt);    // throws as step()
+  void linearise();              // may find that the last factor serves again, and do nothing
+  void solve();
+  // A part of the load that is in balance is followed by the next, one that is not by a smaller one,
+  // from the last iterate in balance. Returns the new phase: updated, converged or failed.
+  StepPhase update();
+  SolveReport accept();
+  void reject();
+  // An exception out of linearise(), solve() or update() leaves the phase failed.
+  StepPhase phase() const;
+  // Of the open solve, on its last iterate under the part of the load at hand; status not_converged
+  // until the end. Throws invalid_argument when no solve is begun; so does iterate(). References are
+  // valid until accept() or reject().
+  const SolveReport& progress_report() const;
+  const Points& iterate() const;   // N x 3, mm; displacement
 
   // The state: that of the last solve that converged, under the settings it had.
   const Points& displacement() const;        // N x 3, mm
+  const Points& velocity() const;            // N x 3, mm/s; of the last step, 0 after solve_static()
+  // Sets the velocity of the tissue nodes (N x 3, mm/s); devices keep theirs. Throws size_mismatch,
+  // not_finite.
+  void set_velocity(const Points& velocity);
   Points positions() const;                  // N x 3, mm
   Eigen::VectorXd jacobians() const;         // M; det F of each tet
   Eigen::VectorXd fluid_pressure() const;    // N, kPa; 0 where a node is dry or cannot be wetted
@@ -157,7 +234,7 @@ class Stepper {
   PointValues displacement_at(const Points& rest_points) const;
   PointValues rest_points_of(const Points& points) const;
 
-  // A copy of state and settings; restore() brings back the same bits.
+  // A copy of state (with velocities) and settings; restore() brings back the same bits.
   class Snapshot;
   std::shared_ptr<const Snapshot> snapshot() const;
   void restore(const std::shared_ptr<const Snapshot>& snapshot);

@@ -104,6 +104,16 @@ BlockTridiagonal Beam::mass(const BeamState& state) const {
   return M;
 }
 
+Eigen::VectorXd Beam::node_masses() const {
+  Eigen::VectorXd masses = Eigen::VectorXd::Zero(node_count());
+  for (Index e = 0; e < element_count(); ++e) {
+    const double half = 0.5 * element(e).section().line_density * element(e).length();
+    masses[e] += half;
+    masses[e + 1] += half;
+  }
+  return masses;
+}
+
 Eigen::VectorXd Beam::weight(const Vec3& gravity) const {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(dof_count());
   for (Index e = 0; e < element_count(); ++e) {

@@ -53,6 +53,8 @@ class Beam {
 
   // Consistent mass, with the rotary inertia of round sections. Zero for a weightless device.
   BlockTridiagonal mass(const BeamState& state) const;
+  // Lumped translational mass, one per node: half of each element's (kg).
+  Eigen::VectorXd node_masses() const;
   // Dead load of gravity (mm/s^2) on the nodes, 6N; half of each element to either end.
   Eigen::VectorXd weight(const Vec3& gravity) const;
 

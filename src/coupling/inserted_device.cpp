@@ -40,6 +40,7 @@ InsertedDevice place_device(DeviceId id, const BeamDevice& device, const Placeme
   InsertedDevice inserted{id, Beam(device, placement.tip, pose.frame()), placement, hold, options,
                           std::move(path), {}};
   inserted.motion.beam = inserted.beam.rest();
+  inserted.motion.velocity.setZero(inserted.beam.node_count(), 3);
   inserted.motion.multipliers.assign(inserted.path.size(), Vec3::Zero());
   return inserted;
 }

@@ -19,6 +19,7 @@ struct DeviceMotion {
   std::vector<Vec3> multipliers;
   // Of an anchor with slack, on the device: across (2), and of its stops against moving in and out.
   std::array<double, 4> anchor{};
+  Points velocity;   // of the nodes, mm/s
 };
 
 struct InsertedDevice {

@@ -64,6 +64,13 @@ void BlockMatrix::add(const Slot& s, const Mat3& block) {
   }
 }
 
+void BlockMatrix::add(const BlockMatrix& other, double factor) {
+  if (other.m_values.size() != m_values.size()) {
+    throw Error(ErrorCode::internal, "matrices of two patterns cannot be added");
+  }
+  for (std::size_t i = 0; i < m_values.size(); ++i) m_values[i] += factor * other.m_values[i];
+}
+
 Mat3 BlockMatrix::get(const Slot& s) const {
   Mat3 block;
   const double* v = m_values.data() + s.offset;

@@ -34,6 +34,7 @@ class BlockMatrix {
 
   void set_zero() { std::fill(m_values.begin(), m_values.end(), 0.0); }
   void add(const Slot& s, const Mat3& block);
+  void add(const BlockMatrix& other, double factor);  // of the same pattern
   Mat3 get(const Slot& s) const;
   // Adds a block at (row, col) or its transpose at (col, row), whichever is in the lower triangle.
   void add_at(Index row, Index col, const Mat3& block);

@@ -73,7 +73,6 @@ void Equilibrium::configure(const ConstraintSet& constraints, const std::optiona
       }
     }
   }
-  next.check_supported();
   *this = std::move(next);
 }
 
@@ -160,8 +159,7 @@ double Equilibrium::external_work(const Points& u0, const Points& external0,
   return ((external0 + 4.0 * middle + end) / 6.0).cwiseProduct(step).sum();
 }
 
-void Equilibrium::tangent(const Points& u, const Forces& f, const std::vector<double>& multipliers,
-                          bool definite, BlockMatrix& K) const {
+void Equilibrium::stored_tangent(const Points& u, bool definite, BlockMatrix& K) const {
   K.set_zero();
   Points unused;
   m_tissue.tangent(u, definite, *m_map, unused, K);
@@ -171,6 +169,12 @@ void Equilibrium::tangent(const Points& u, const Forces& f, const std::vector<do
       K.add(K.slot_at(block_of[std::size_t(i)], 0), m_springs[i] * Mat3::Identity());
     }
   }
+}
+
+void Equilibrium::tangent(const Points& u, const Forces& f, const std::vector<double>& multipliers,
+                          bool definite, BlockMatrix& K) const {
+  stored_tangent(u, definite, K);
+  const Indices& block_of = m_blocks->block_of();
   if (m_fluid) {
     const Points x = positions(u);
     m_fluid->add_tangent(x, f.heads, block_of, K);

@@ -47,6 +47,11 @@ class Equilibrium {
   // fluid's load has no potential where levels differ, its work always exists.
   double external_work(const Points& u0, const Points& external0, const Points& u1) const;
 
+  // Throws rigid_mode naming a body that nothing holds: it has no quasi-static equilibrium.
+  void check_supported() const;
+
+  // Tangent of the stored energy at u, into K.
+  void stored_tangent(const Points& u, bool definite, BlockMatrix& K) const;
   // Tangent at u, with the curvature of active contacts; head terms apart.
   void tangent(const Points& u, const Forces& f, const std::vector<double>& multipliers,
                bool definite, BlockMatrix& K) const;
@@ -57,8 +62,6 @@ class Equilibrium {
   double force_floor() const { return m_force_floor; }   // mN: below it a force counts as none
 
  private:
-  void check_supported() const;
-
   Tissue m_tissue;
   std::vector<Indices> m_adjacency;
   bool m_balanced;

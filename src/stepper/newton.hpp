@@ -10,6 +10,7 @@
 #include "brainshift/stepper.hpp"
 #include "coupling/coupling.hpp"
 #include "linear/spd_solver.hpp"
+#include "stepper/backward_euler.hpp"
 #include "stepper/equilibrium.hpp"
 
 namespace brainshift {
@@ -21,13 +22,6 @@ struct FactorCache {
   std::unique_ptr<SpdSolver> solver;
 };
 
-// What changes in a solve: displacement, multiplier per contact row, and the devices.
-struct MechanicalState {
-  Points u;
-  std::vector<double> multipliers;
-  std::vector<DeviceMotion> devices;
-};
-
 // A force that balances what is out of balance when a solve begins, to be let go in steps.
 struct Offset {
   Eigen::VectorXd tissue;   // on blocks, mN
@@ -37,19 +31,25 @@ Offset operator*(double factor, const Offset& offset);
 
 class Newton {
  public:
-  enum class Outcome { converged, stuck, out_of_iterations, cancelled };
+  enum class Outcome { ongoing, converged, stuck, out_of_iterations, cancelled };
 
+  // euler: inertia and damping of a step in time; none in statics.
   Newton(const Equilibrium& equilibrium, const Coupling& coupling, const StepperOptions& options,
-         FactorCache& cache, SolveReport& report);
+         FactorCache& cache, SolveReport& report, const BackwardEuler* euler = nullptr);
 
-  // Finds the balance of all forces plus `offset` (on blocks) from `state`; on anything but
-  // converged `state` is left as it was.
-  Outcome solve(MechanicalState& state, const Offset& offset, double load_factor);
+  // Takes up the search for the balance of all forces plus `offset` (on blocks) from `start`:
+  // ongoing, or converged where they are in balance there.
+  Outcome begin(const MechanicalState& start, const Offset& offset, double load_factor);
+  // The three parts of an iteration.
+  void linearise();   // assembles the tangent, unless the factor at hand serves again
+  void solve();       // the step: active set, factor, coupling; update() tells if there is none
+  Outcome update();   // line search, the new iterate and what it is worth
+  const MechanicalState& iterate() const { return m_state; }
 
   // Unbalanced force with the state's own multipliers; what fixed rows carry stays in.
   Offset unbalanced(const MechanicalState& state);
-  // Fills the certificate of `report` for this state.
-  void certify(const MechanicalState& state);
+  // Fills the certificate of `report` for this state, without any offset; true: it holds.
+  bool certify(const MechanicalState& state);
 
  private:
   struct Step {
@@ -65,12 +65,17 @@ class Newton {
   void refresh();                                        // forces at m_state
   bool small_enough(double last_correction) const;
   void choose_active();
-  void linearise();                                      // assembles the tangent
+  void assemble();                                       // tangent at m_state
   bool factorise_shifted(const Reduction& reduction);
   Reduction make_reduction(const Reduction* like = nullptr) const;
   Step direction(const Reduction& reduction);
   bool update_active(const Step& step);                  // true: the set changed
-  bool find_step(Step& step, bool fresh);
+  bool find_step();
+  bool reuse_factor();
+  Outcome blame();
+  Outcome take(double part, MechanicalState& next);
+  double length_of_step(double part) const;
+  double potential(const Points& u, const std::vector<DeviceMotion>& motions) const;
   double search(const Step& step, MechanicalState& next);
   bool no_new_inversion(const Points& u, const Eigen::VectorXd& before) const;
   void make_feasible(double part, Points& u, std::vector<char>& touched) const;
@@ -100,10 +105,13 @@ class Newton {
   const StepperOptions& m_options;
   FactorCache& m_cache;
   SolveReport& m_report;
+  const BackwardEuler* m_euler;
 
   MechanicalState m_state;
   Forces m_forces;
+  Eigen::VectorXd m_inertia, m_damping;   // forces on blocks; of a step in time
   Offset m_offset;
+  double m_load_factor = 1.0;
   Eigen::VectorXd m_load;               // external - internal + offset, on blocks; no rows
   DeviceVectors m_device_load;          // -gradient + offset, held dofs 0; no rows
   std::vector<CouplingRow> m_couplings;
@@ -112,7 +120,13 @@ class Newton {
   std::vector<Mat3> m_free;             // per block: projection on what its fixed rows leave free
   std::vector<RankOne> m_terms;
   std::vector<Eigen::VectorXd> m_columns, m_rows;   // the terms on blocks
-  bool m_definite = false;
+  Step m_step;
+  bool m_found = false;                 // there is a step
+  bool m_fresh = true;                  // the next iteration assembles and factorises
+  bool m_definite = false;              // with the projected tangent
+  std::vector<char> m_factored_set;     // m_active of the factor at hand
+  int m_iteration = 0;                  // since begin()
+  double m_last = 0.0, m_previous = 0.0;   // mm; lengths of the last two steps
   std::optional<Reduction> m_factored;  // the one the factor at hand was made with
 };
 

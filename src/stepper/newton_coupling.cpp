@@ -58,6 +58,7 @@ void Newton::refresh_devices() {
     BlockTridiagonal unused(beam.node_count());
     beam.tangent(m_state.devices[d].beam, gradient, unused);
     m_device_load.push_back(m_offset.devices[d] - gradient);
+    if (m_euler) m_euler->add_force(d, m_state.devices[d].beam, m_device_load.back());
     m_coupling.hold(d, m_device_load.back());
   }
   m_couplings = m_coupling.rows(m_state.u, m_state.devices);
@@ -85,6 +86,7 @@ bool Newton::factorise_devices() {
         K.diagonal(i).diagonal().head<3>().array() += shift;
         K.diagonal(i).diagonal().tail<3>().array() += shift * size * size;
       }
+      if (m_euler) m_euler->add_tangent(d, K);
       m_coupling.hold(d, K);
       if (m_device_factors[d].factorise(K) && m_device_factors[d].positive()) break;
       if (attempt == 30) return false;

@@ -1,10 +1,10 @@
 #include "brainshift/stepper.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
 
+#include "beam/text.hpp"
 #include "brainshift/error.hpp"
 #include "stepper/stepper_impl.hpp"
 
@@ -18,56 +18,6 @@ const char* to_string(Status status) {
     case Status::cancelled: return "cancelled";
   }
   return "unknown";
-}
-
-// The change of settings since the last solve appears as a force out of balance; it is let go in
-// one load step, or in smaller ones where Newton does not get through.
-SolveReport Stepper::Impl::solve_static() {
-  const auto start = std::chrono::steady_clock::now();
-  Equilibrium trial = m_equilibrium;  // whatever fails below leaves the present one as it is
-  configure(trial, m_state.wanted);
-  SolveReport report;
-  const Coupling coupling(m_mesh, m_state.devices, m_state.u);
-  Newton newton(trial, coupling, m_options, m_cache, report);
-  MechanicalState state = mechanical(trial.contacts());
-  const Offset unbalanced = newton.unbalanced(state);
-  double reached = 0.0, step = 1.0;
-  report.status = Status::converged;
-  while (reached < 1.0) {
-    const double next = std::min(1.0, reached + step);
-    const Newton::Outcome outcome = newton.solve(state, -(1.0 - next) * unbalanced, next);
-    if (outcome == Newton::Outcome::converged) {
-      ++report.load_steps;
-      reached = next;
-      step *= 2.0;
-      continue;
-    }
-    if (outcome == Newton::Outcome::cancelled) {
-      report.status = Status::cancelled;
-      report.message = "the host asked to stop";
-      break;
-    }
-    step = 0.5 * (next - reached);
-    if (step < m_options.smallest_load_step) {
-      const bool stuck = outcome == Newton::Outcome::stuck;
-      report.status = stuck ? Status::no_equilibrium : Status::not_converged;
-      report.message =
-          "no balance of forces was found beyond " + std::to_string(reached) +
-          " of the change of load; a law without limit point (stable_neo_hookean), another "
-          "support or the contact with the skull may be what the scene lacks";
-      break;
-    }
-  }
-  report.load_factor = reached;
-  if (report.status == Status::converged) {
-    newton.certify(state);
-    Snapshot next = solved(state, trial.contacts());
-    std::swap(m_state, next);
-    m_equilibrium = std::move(trial);
-  }
-  report.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return report;
 }
 
 Stepper::Stepper(Scene scene, StepperOptions options)
@@ -98,14 +48,43 @@ void Stepper::set_gravity(const Vec3& gravity) {
 void Stepper::enable(ConstraintId id) { m_impl->m_state.wanted.constraints.enable(id); }
 void Stepper::disable(ConstraintId id) { m_impl->m_state.wanted.constraints.disable(id); }
 
+void Stepper::set_damping(const Damping& damping) {
+  const auto check = [](double value, const char* name) {
+    const std::string what = std::string("Damping: ") + name + " = " + text(value);
+    if (!std::isfinite(value)) throw Error(ErrorCode::not_finite, what + " is not finite");
+    if (value < 0.0) throw Error(ErrorCode::invalid_argument, what + " is negative");
+  };
+  check(damping.alpha, "alpha");
+  check(damping.beta, "beta");
+  m_impl->m_state.wanted.damping = damping;
+}
+
+const Damping& Stepper::damping() const { return m_impl->m_state.wanted.damping; }
+
 void Stepper::check_settings() const {
   Equilibrium trial = m_impl->m_equilibrium;
   Impl::configure(trial, m_impl->m_state.wanted);
+  trial.check_supported();
 }
 
-SolveReport Stepper::solve_static() { return m_impl->solve_static(); }
-
 const Points& Stepper::displacement() const { return m_impl->m_state.u; }
+const Points& Stepper::velocity() const { return m_impl->m_state.velocity; }
+
+void Stepper::set_velocity(const Points& velocity) {
+  m_impl->refuse_when_begun("set_velocity");
+  if (velocity.rows() != m_impl->m_mesh.node_count()) {
+    throw Error(ErrorCode::size_mismatch,
+                "velocity has " + std::to_string(velocity.rows()) + " rows for " +
+                    std::to_string(m_impl->m_mesh.node_count()) + " nodes");
+  }
+  for (Eigen::Index i = 0; i < velocity.rows(); ++i) {
+    if (velocity.row(i).allFinite()) continue;
+    throw Error(ErrorCode::not_finite,
+                "the velocity of node " + std::to_string(i) + " is not finite");
+  }
+  m_impl->m_state.velocity = velocity;
+}
+
 Points Stepper::positions() const { return m_impl->m_mesh.nodes() + m_impl->m_state.u; }
 
 Eigen::VectorXd Stepper::jacobians() const {
@@ -210,6 +189,7 @@ std::shared_ptr<const Stepper::Snapshot> Stepper::snapshot() const {
 }
 
 void Stepper::restore(const std::shared_ptr<const Snapshot>& snapshot) {
+  m_impl->refuse_when_begun("restore");
   if (!snapshot || snapshot->u.rows() != m_impl->m_mesh.node_count()) {
     throw Error(ErrorCode::invalid_argument, "the snapshot is empty or of another mesh");
   }

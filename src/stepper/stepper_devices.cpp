@@ -28,6 +28,7 @@ void check_hold(const Hold& hold) {
 
 DeviceId Stepper::insert(const BeamDevice& device, const Placement& placement, const Hold& hold,
                          const TrackOptions& options) {
+  m_impl->refuse_when_begun("insert");
   check_hold(hold);
   if (!(options.shear_bound >= 0.0) || !(options.least_spacing > 0.0)) {
     throw Error(ErrorCode::invalid_argument,
@@ -47,6 +48,7 @@ DeviceId Stepper::insert(const BeamDevice& device, const Placement& placement, c
 }
 
 void Stepper::exchange(DeviceId id, const BeamDevice& device, const Hold& hold, double advance) {
+  m_impl->refuse_when_begun("exchange");
   check_hold(hold);
   if (!(advance >= 0.0) || !std::isfinite(advance)) {
     throw Error(ErrorCode::invalid_argument, "exchange: advance is negative or not finite");
@@ -67,11 +69,13 @@ void Stepper::exchange(DeviceId id, const BeamDevice& device, const Hold& hold, 
 }
 
 void Stepper::set_hold(DeviceId id, const Hold& hold) {
+  m_impl->refuse_when_begun("set_hold");
   check_hold(hold);
   m_impl->device(id).hold = hold;
 }
 
 void Stepper::remove(DeviceId id) {
+  m_impl->refuse_when_begun("remove");
   const InsertedDevice& device = m_impl->device(id);
   auto& devices = m_impl->m_state.devices;
   devices.erase(devices.begin() + (&device - devices.data()));

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <initializer_list>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +15,7 @@
 #include "coupling/coupling.hpp"
 #include "stepper/equilibrium.hpp"
 #include "stepper/newton.hpp"
+#include "stepper/solve.hpp"
 
 namespace brainshift {
 
@@ -19,12 +23,14 @@ struct Settings {
   std::optional<Csf> csf;
   ConstraintSet constraints;
   Vec3 gravity = Vec3::Zero();
+  Damping damping = {};
 };
 
 // What snapshot() keeps. Multipliers by group, so that groups may come and go.
 class Stepper::Snapshot {
  public:
   Points u;
+  Points velocity;
   std::map<ConstraintId, Eigen::VectorXd> multipliers;
   std::vector<InsertedDevice> devices;
   DeviceId next_device = 0;
@@ -39,9 +45,10 @@ class Stepper::Impl {
   Impl(Scene scene, StepperOptions options)
       : m_mesh(scene.mesh), m_options(std::move(options)), m_equilibrium(scene) {
     check_options();
-    m_state.wanted = {std::move(scene.csf), std::move(scene.constraints), scene.gravity};
+    m_state.wanted = {std::move(scene.csf), std::move(scene.constraints), scene.gravity, {}};
     m_state.solved = m_state.wanted;
     m_state.u.setZero(m_mesh.node_count(), 3);
+    m_state.velocity = m_state.u;
     refuse_penetration();
   }
 
@@ -73,7 +80,20 @@ class Stepper::Impl {
     }
   }
 
-  SolveReport solve_static();
+  // The solve that is begun, with the settings it has taken up.
+  struct OpenSolve {
+    Settings settings;
+    Solve solve;
+  };
+
+  // stepper_solve.cpp
+  void begin(const std::optional<double>& dt);
+  template <class Phase>
+  void run_phase(const char* call, std::initializer_list<StepPhase> needed, Phase&& phase);
+  void require(const char* call, std::initializer_list<StepPhase> needed) const;
+  void refuse_when_begun(const char* call) const;
+  StepPhase phase() const { return m_open ? m_open->solve.phase() : StepPhase::idle; }
+  const Solve& open(const char* call) const;
 
   static void configure(Equilibrium& equilibrium, const Settings& settings) {
     equilibrium.configure(settings.constraints, settings.csf, settings.gravity);
@@ -91,12 +111,15 @@ class Stepper::Impl {
   }
 
   // The present state with what a solve has found; made apart, so that a failure changes nothing.
-  Snapshot solved(const MechanicalState& m, const ContactRows& contacts) const {
+  Snapshot solved(OpenSolve& open) const {
+    const MechanicalState& m = open.solve.result();
+    const ContactRows& contacts = open.solve.equilibrium().contacts();
     Snapshot next = m_state;
     next.u = m.u;
+    next.velocity = open.solve.velocity();
     for (std::size_t d = 0; d < m.devices.size(); ++d) next.devices[d].motion = m.devices[d];
     next.multipliers.clear();
-    next.solved = next.wanted;
+    next.solved = open.settings;
     for (std::size_t r = 0; r < m.multipliers.size(); ++r) {
       const ConstraintGroup& group = contacts.group_of(r);
       Eigen::VectorXd& values = next.multipliers[group.id];
@@ -118,6 +141,8 @@ class Stepper::Impl {
   Equilibrium m_equilibrium;
   Snapshot m_state;
   FactorCache m_cache;
+  std::unique_ptr<OpenSolve> m_open;
+  bool m_in_phase = false;   // a callback must not end the solve it is called from
 };
 
 }  // namespace brainshift

@@ -205,6 +205,17 @@ double Tissue::mass() const {
   return sum;
 }
 
+Eigen::VectorXd Tissue::node_masses() const {
+  Eigen::VectorXd masses = Eigen::VectorXd::Zero(m_mesh.node_count());
+  for (const Part& part : m_parts) {
+    for (Index t : part.tets) {
+      const double quarter = 0.25 * part.material.density() * m_elements[std::size_t(t)].volume;
+      for (int a = 0; a < 4; ++a) masses[m_mesh.tets()(t, a)] += quarter;
+    }
+  }
+  return masses;
+}
+
 Eigen::VectorXd Tissue::jacobians(const Points& u) const {
   Eigen::VectorXd result(m_mesh.tet_count());
   for_all_tets([&](const LawFunctions&, const Lame&, Index t) {

@@ -37,6 +37,8 @@ class Tissue {
   // m/4 g on each node of a tet: N x 3 for gravity g (mm/s^2).
   Points gravity_force(const Vec3& gravity) const;
   double mass() const;  // kg
+  // Lumped mass, N: a quarter of each tet's on its nodes (kg).
+  Eigen::VectorXd node_masses() const;
 
   Eigen::VectorXd jacobians(const Points& u) const;  // M; det F
   // Neighbours of each node through tets, sorted.

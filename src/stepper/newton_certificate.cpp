@@ -1,0 +1,72 @@
+// What a state is worth: residual, complementarity, violation, energies.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "stepper/newton.hpp"
+#include "stepper/norms.hpp"
+
+namespace brainshift {
+
+void Newton::measure() {
+  const Blocks& blocks = m_eq.blocks();
+  const Eigen::VectorXd contact = m_eq.contact_force(m_forces, m_state.multipliers);
+  const Eigen::VectorXd coupling = coupling_force();
+  const Eigen::VectorXd total = m_load + contact + coupling;
+  const Reduction fixed(blocks.count(), m_eq.fixed_rows());
+  const Eigen::VectorXd rest = fixed.project(total);
+  const double constraint =
+      std::max({max_norm(contact), max_norm(coupling), max_norm(total - rest)});
+  double scale = std::max({max_norm(blocks.gather(m_forces.internal)),
+                           max_norm(blocks.gather(m_forces.external) + m_offset.tissue), constraint,
+                           m_eq.force_floor()});
+  if (m_euler) scale = std::max({scale, max_norm(m_inertia), max_norm(m_damping)});
+  m_report.residual = std::max(max_norm(rest), device_residual()) / scale;
+  // A norm may skip what is not a number; a certificate must not.
+  bool finite = std::isfinite(scale) && total.allFinite();
+  for (const Eigen::VectorXd& load : m_device_load) finite = finite && load.allFinite();
+  if (!finite) m_report.residual = std::numeric_limits<double>::infinity();
+  measure_coupling();
+  m_report.complementarity = 0.0;
+  m_report.violation = 0.0;
+  m_report.active_contacts = 0;
+  for (std::size_t r = 0; r < m_forces.gaps.size(); ++r) {
+    const double gap = m_forces.gaps[r].gap, multiplier = m_state.multipliers[r];
+    if (mobility(r) == 0.0) continue;
+    m_report.violation = std::max(m_report.violation, -gap);
+    m_report.complementarity =
+        std::max(m_report.complementarity,
+                 std::abs(std::min(gap / m_eq.mesh().diameter(), multiplier / scale)));
+    // Forces below the tolerance are rounding, not contact.
+    if (multiplier > m_options.residual_tolerance * scale) ++m_report.active_contacts;
+  }
+}
+
+bool Newton::small_enough(double last_correction) const {
+  return m_report.residual <= m_options.residual_tolerance &&
+         m_report.complementarity <= m_options.complementarity_tolerance &&
+         m_report.tie_gap <= m_options.correction_tolerance * m_eq.mesh().diameter() &&
+         last_correction <= m_options.correction_tolerance * m_eq.mesh().diameter();
+}
+
+Offset Newton::unbalanced(const MechanicalState& state) {
+  m_state = state;
+  m_offset = no_offset();
+  refresh();
+  Offset total{m_load + m_eq.contact_force(m_forces, m_state.multipliers) + coupling_force(),
+               coupled_device_load()};
+  return total;
+}
+
+bool Newton::certify(const MechanicalState& state) {
+  m_state = state;
+  m_offset = no_offset();
+  refresh();
+  measure();
+  m_report.energy = m_eq.stored_energy(state.u) + device_energy(state.devices);
+  m_report.kinetic_energy = m_euler ? m_euler->kinetic_energy(state.u, state.devices) : 0.0;
+  m_report.smallest_jacobian = m_eq.tissue().jacobians(state.u).minCoeff();
+  return small_enough(m_report.last_correction);
+}
+
+}  // namespace brainshift

@@ -1,0 +1,95 @@
+// How far to go along a step: backtracking on the energy along the feasible way.
+#include <algorithm>
+#include <cmath>
+
+#include "stepper/newton.hpp"
+#include "stepper/stopwatch.hpp"
+
+namespace brainshift {
+
+bool Newton::no_new_inversion(const Points& u, const Eigen::VectorXd& before) const {
+  const Eigen::VectorXd now = m_eq.tissue().jacobians(u);
+  for (Eigen::Index t = 0; t < now.size(); ++t) {
+    if (!(now[t] > 0.0) && before[t] > 0.0) return false;
+  }
+  return true;
+}
+
+// Moves nodes back onto the surfaces they have passed, and active ones to the gap the step gives
+// them (what is left of theirs after `part` of the way), so that every iterate is feasible and the
+// energy alone can judge a step.
+void Newton::make_feasible(double part, Points& u, std::vector<char>& touched) const {
+  const ContactRows& contacts = m_eq.contacts();
+  const double slack = 1e-13 * m_eq.mesh().diameter();
+  touched = m_active;
+  for (int sweep = 0; sweep < 20; ++sweep) {
+    double worst = 0.0;
+    for (std::size_t r = 0; r < contacts.size(); ++r) {
+      const GapSample g = contacts.sample(r, u);
+      const ContactRow& row = contacts.row(r);
+      const Vec3 push = free_part(row.node, g.normal);
+      const Vec3 back = row.partner >= 0 ? free_part(row.partner, g.normal) : Vec3(Vec3::Zero());
+      const double mobility = g.normal.dot(push + back);
+      if (mobility <= 1e-12 * g.normal.squaredNorm()) continue;  // held on both sides
+      if (g.gap < -slack) touched[r] = 1;
+      const double target = m_active[r] ? (1.0 - part) * std::max(m_forces.gaps[r].gap, 0.0) : 0.0;
+      const double over = g.gap - target;
+      if (!touched[r] || std::abs(over) <= slack) continue;
+      worst = std::max(worst, std::abs(over));
+      m_eq.blocks().move(row.node, -over / mobility * push, u);
+      if (row.partner >= 0) m_eq.blocks().move(row.partner, over / mobility * back, u);
+    }
+    if (worst == 0.0) break;
+  }
+}
+
+// What a step lowers: the energy stored, and in a step in time the incremental potential of inertia
+// and damping, docs/theory.md (11).
+double Newton::potential(const Points& u, const std::vector<DeviceMotion>& motions) const {
+  const double stored = m_eq.stored_energy(u) + device_energy(motions);
+  return m_euler ? stored + m_euler->potential(u, motions) : stored;
+}
+
+// Backtracking on the change of energy (and of what open ties and slip add to the merit); returns the
+// part of the step taken, 0 if none would do.
+double Newton::search(const Step& step, MechanicalState& next) {
+  Stopwatch watch(m_report.seconds_line_search);
+  const Points& u0 = m_state.u;
+  const Points external0 = m_forces.external;
+  const double energy0 = potential(u0, m_state.devices);
+  const double rows0 = merit_of_rows(m_state, step.weight);
+  const Eigen::VectorXd jacobians = m_eq.tissue().jacobians(u0);
+  std::vector<char> touched;
+  double part = 1.0;
+  for (int attempt = 0; attempt < 30; ++attempt) {
+    next.u = u0;
+    m_eq.blocks().scatter_add(step.dx, part, next.u);
+    make_feasible(part, next.u, touched);
+    move_devices(step, part, next);
+    if (!next.u.allFinite() || !no_new_inversion(next.u, jacobians)) {
+      part *= 0.5;
+      continue;
+    }
+    const double energy1 = potential(next.u, next.devices);
+    double work = m_eq.external_work(u0, external0, next.u) +
+                  m_offset.tissue.dot(m_eq.blocks().gather_motion(next.u - u0));
+    for (std::size_t d = 0; d < step.dq.size(); ++d) {
+      work += part * m_offset.devices[d].dot(step.dq[d]);
+    }
+    const double change = energy1 - energy0 - work + merit_of_rows(next, step.weight) - rows0;
+    // Rounding of energies, and of the gaps of ties that are as closed as they can be.
+    const double noise = 1e-12 * (std::abs(energy0) + std::abs(energy1) + std::abs(work)) +
+                         1e-13 * m_eq.mesh().diameter() * step.weight * double(m_couplings.size());
+    if (change <= -1e-4 * part * step.predicted + noise) {
+      m_active = touched;
+      return part;
+    }
+    // Minimum of the parabola through value and slope at 0 and the value here, kept in [0.1, 0.5].
+    const double bend = change + part * step.predicted;
+    const double best = bend > 0.0 ? 0.5 * part * part * step.predicted / bend : 0.5 * part;
+    part = std::clamp(best, 0.1 * part, 0.5 * part);
+  }
+  return 0.0;
+}
+
+}  // namespace brainshift

@@ -1,0 +1,108 @@
+#include "stepper/solve.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace brainshift {
+
+Solve::Solve(Equilibrium equilibrium, const std::vector<InsertedDevice>& devices,
+             MechanicalState start, const StepperOptions& options, FactorCache& cache,
+             const std::optional<Motion>& motion)
+    : m_options(options),
+      m_equilibrium(std::move(equilibrium)),
+      m_coupling(m_equilibrium.mesh(), devices, start.u),
+      m_euler(motion ? std::optional<BackwardEuler>(std::in_place, m_equilibrium, m_coupling, start,
+                                                    *motion)
+                     : std::nullopt),
+      m_newton(m_equilibrium, m_coupling, m_options, cache, m_report,
+               m_euler ? &*m_euler : nullptr),
+      m_balanced(std::move(start)) {
+  m_report.load_factor = 0.0;
+  m_unbalanced = m_newton.unbalanced(m_balanced);
+  settle(begin_load_step());
+  if (m_phase == StepPhase::updated) m_phase = StepPhase::begun;
+}
+
+void Solve::linearise() {
+  m_newton.linearise();
+  m_phase = StepPhase::linearised;
+}
+
+void Solve::solve() {
+  m_newton.solve();
+  m_phase = StepPhase::solved;
+}
+
+void Solve::update() { settle(m_newton.update()); }
+
+Newton::Outcome Solve::begin_load_step() {
+  m_next = std::min(1.0, m_reached + m_step);
+  return m_newton.begin(m_balanced, -(1.0 - m_next) * m_unbalanced, m_next);
+}
+
+// What follows from the end of an iteration: another one, another load step, or the end.
+void Solve::settle(Newton::Outcome outcome) {
+  while (outcome != Newton::Outcome::ongoing) {
+    if (outcome == Newton::Outcome::converged) {
+      m_balanced = m_newton.iterate();
+      m_report.load_factor = m_reached = m_next;
+      ++m_report.load_steps;
+      m_step *= 2.0;
+      if (m_reached >= 1.0) return finish();
+    } else if (!halve_load_step(outcome)) {
+      m_phase = StepPhase::failed;
+      return;
+    }
+    outcome = begin_load_step();
+  }
+  m_phase = StepPhase::updated;
+}
+
+// False: this was the last attempt.
+bool Solve::halve_load_step(Newton::Outcome outcome) {
+  if (outcome == Newton::Outcome::cancelled) {
+    m_report.status = Status::cancelled;
+    m_report.message = "the host asked to stop";
+    return false;
+  }
+  m_step = 0.5 * (m_next - m_reached);
+  if (m_step >= m_options.smallest_load_step) return true;
+  const bool stuck = outcome == Newton::Outcome::stuck;
+  m_report.status = stuck ? Status::no_equilibrium : Status::not_converged;
+  m_report.message = "no balance of forces was found beyond " + std::to_string(m_reached) +
+                     " of the change of load; ";
+  m_report.message += m_euler ? "a shorter time step may find it, or a longer one where forces are "
+                                "below what the rounding of positions makes of inertia"
+                              : "a law without limit point (stable_neo_hookean), another support "
+                                "or the contact with the skull may be what the scene lacks";
+  return false;
+}
+
+void Solve::finish() {
+  if (!m_newton.certify(m_balanced)) {
+    return fail("the last iterate, measured once more, does not meet the tolerances");
+  }
+  for (std::size_t d = 0; d < m_balanced.devices.size(); ++d) {
+    DeviceMotion& motion = m_balanced.devices[d];
+    if (m_euler) {
+      motion.velocity = m_euler->velocity(d, motion.beam);
+    } else {
+      motion.velocity.setZero(motion.beam.x.rows(), 3);
+    }
+  }
+  m_report.status = Status::converged;
+  m_phase = StepPhase::converged;
+}
+
+void Solve::fail(const std::string& message) {
+  m_report.status = Status::not_converged;
+  m_report.message = message;
+  m_phase = StepPhase::failed;
+}
+
+Points Solve::velocity() const {
+  return m_euler ? m_euler->velocity(m_balanced.u) : Points(Points::Zero(m_balanced.u.rows(), 3));
+}
+
+}  // namespace brainshift

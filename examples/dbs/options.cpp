@@ -88,6 +88,8 @@ int parse(int argc, char** argv, Options& o) {
   app.add_flag("--balanced,!--free", o.balanced,
                "the image is in balance with gravity and full fluid, or free of load");
   app.add_flag("--files,!--no-files", o.files, "write VTU files of the stages");
+  app.add_option("--threads", o.threads, "of the solver; no result depends on it")
+      ->capture_default_str()->check(CLI::Range(1, 256));
   app.add_flag("--quiet", o.quiet, "no progress");
   try {
     app.parse(argc, argv);

@@ -48,6 +48,7 @@ struct Options {
   bool clamped = false;           // the wire's tangent is held at the burr hole too
   double cannula_depth = 0.0;     // mm the cannula ends short of the target
   bool elastic_cannula = false;   // a steel beam held at the burr hole, instead of a rigid one
+  int threads = 1;
   bool falx = true, skull = true, balanced = true, files = true, quiet = false;
 };
 

@@ -44,7 +44,11 @@ struct StepperOptions {
   double correction_tolerance = 4e-11;      // last correction relative to the mesh diameter
   int max_iterations = 60;                  // Newton iterations per load step
   double smallest_load_step = 1.0 / 256.0;  // below it: no equilibrium
-  double initial_penetration = 1e-6;        // accepted at the start, relative to the diameter
+  // Threads of a solve, the calling one among them; the others end with it. The results are the
+  // same bits for any number.
+  int threads = 1;
+  // Accepted at the start and of obstacles enabled later, relative to the diameter.
+  double initial_penetration = 1e-6;
   // Called after every Newton iteration; false stops the solve with Status::cancelled. It must not
   // call the phases of a solve.
   std::function<bool(const Progress&)> progress;

@@ -31,6 +31,7 @@ class Equilibrium {
                  const Vec3& gravity);
 
   const Mesh& mesh() const { return m_tissue.mesh(); }
+  void set_threads(int threads) { m_tissue.set_threads(threads); }
   const Tissue& tissue() const { return m_tissue; }
   const Blocks& blocks() const { return *m_blocks; }
   const std::shared_ptr<const Blocks>& blocks_pointer() const { return m_blocks; }

@@ -30,6 +30,7 @@ Newton::Newton(const Equilibrium& equilibrium, const Coupling& coupling,
   m_cache.stiffness = blocks->make_matrix();
   m_cache.reduced = m_cache.stiffness;
   m_cache.solver = make_spd_solver();
+  m_cache.solver->set_threads(m_options.threads);
   m_cache.solver->analyse(m_cache.reduced);
   m_cache.made_for = blocks;
 }

@@ -64,6 +64,7 @@ const Damping& Stepper::damping() const { return m_impl->m_state.wanted.damping;
 void Stepper::check_settings() const {
   Equilibrium trial = m_impl->m_equilibrium;
   Impl::configure(trial, m_impl->m_state.wanted);
+  m_impl->refuse_penetration(trial);
   trial.check_supported();
 }
 

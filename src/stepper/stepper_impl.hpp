@@ -45,11 +45,12 @@ class Stepper::Impl {
   Impl(Scene scene, StepperOptions options)
       : m_mesh(scene.mesh), m_options(std::move(options)), m_equilibrium(scene) {
     check_options();
+    m_equilibrium.set_threads(m_options.threads);
     m_state.wanted = {std::move(scene.csf), std::move(scene.constraints), scene.gravity, {}};
     m_state.solved = m_state.wanted;
     m_state.u.setZero(m_mesh.node_count(), 3);
     m_state.velocity = m_state.u;
-    refuse_penetration();
+    refuse_penetration(m_equilibrium);
   }
 
   void check_options() const {
@@ -64,10 +65,12 @@ class Stepper::Impl {
     require(positive(m_options.smallest_load_step), "smallest_load_step is not positive");
     require(m_options.initial_penetration >= 0.0, "initial_penetration is negative");
     require(m_options.max_iterations > 0, "max_iterations is not positive");
+    require(m_options.threads > 0, "threads is not positive");
   }
 
-  void refuse_penetration() const {
-    const ContactRows& contacts = m_equilibrium.contacts();
+  // At the start, and where a host enables an obstacle that tissue is in by then.
+  void refuse_penetration(const Equilibrium& equilibrium) const {
+    const ContactRows& contacts = equilibrium.contacts();
     const double allowed = m_options.initial_penetration * m_mesh.diameter();
     for (std::size_t r = 0; r < contacts.size(); ++r) {
       const double gap = contacts.sample(r, m_state.u).gap;

@@ -48,6 +48,7 @@ void Stepper::Impl::begin(const std::optional<double>& dt) {
     const Stopwatch watch(seconds);
     Equilibrium trial = m_equilibrium;  // whatever fails leaves the present one as it is
     configure(trial, m_state.wanted);
+    refuse_penetration(trial);
     if (!dt) trial.check_supported();
     std::optional<Motion> motion;
     if (dt) motion = Motion{*dt, m_state.wanted.damping, m_state.velocity};

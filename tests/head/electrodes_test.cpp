@@ -131,6 +131,21 @@ TEST(Electrodes, SnapshotsBranchToTheSameBits) {
   EXPECT_EQ(state(), straight);
 }
 
+TEST(Electrodes, ThreadsDoNotChangeABit) {
+  std::vector<std::pair<Points, Points>> ends;
+  for (int threads : {1, 2}) {
+    Options o = right_only();
+    o.threads = threads;
+    o.friction = 0.02;
+    Procedure procedure(shipped_head(), o);
+    double seconds = 0.0;
+    for (const StageResult& s : run_until(procedure, "9")) seconds += s.report.seconds;
+    ends.emplace_back(procedure.stepper().displacement(), procedure.stepper().device(0).nodes);
+    std::printf("%d thread%s: %.1f s in the solves\n", threads, threads > 1 ? "s" : "", seconds);
+  }
+  EXPECT_EQ(ends[0], ends[1]);
+}
+
 // A straight lead inside a rigid cannula and an elastic steel one do nearly the same; a test
 // electrode exchanged before the cannula leaves is forgotten.
 TEST(Electrodes, VariantsOfTheCannulaEndCloseTogether) {

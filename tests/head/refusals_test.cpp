@@ -83,7 +83,6 @@ TEST_F(Refusals, NameTrajectoriesThatCannotBe) {
   expect_refusal("--sides left --lateral=-60", {"left", "crosses the midline"});
   expect_refusal("--target VIM", {"landmark 'VIM_"});
   expect_refusal("--target-left nan 0 0 --sides left", {"left", "not finite"});
-  expect_refusal("--sagittal=-30", {"leaves the tissue"});   // out at the base, and in again
 }
 
 TEST_F(Refusals, NameDevicesThatCannotBe) {

@@ -1,6 +1,10 @@
 // Sparse Cholesky against Eigen's dense one.
 #include "linear/spd_solver.hpp"
 
+#include <random>
+#include <thread>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "linear/matrices.hpp"
@@ -24,6 +28,52 @@ TEST(SpdSolver, SolvesForSeveralRightHandSides) {
       EXPECT_LT((x - random.dense.llt().solve(b)).norm(), 1e-13 * x.norm()) << n;
     }
   }
+}
+
+// Each with a matrix of its own: neither may disturb the other, whatever the BLAS.
+TEST(SpdSolver, InTwoThreadsEqualOneAlone) {
+  const auto work = [](unsigned seed, int rounds) {
+    const test::RandomMatrix random(200, seed);
+    const auto solver = make_spd_solver();
+    solver->analyse(random.blocks);
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<double> entry(-1.0, 1.0);
+    const Eigen::MatrixXd b =
+        Eigen::MatrixXd::NullaryExpr(600, 40, [&] { return entry(engine); });
+    std::vector<Eigen::MatrixXd> found;
+    for (int round = 0; round < rounds; ++round) {
+      if (!solver->factorise(random.blocks)) return found;
+      for (int again = 0; again < 20; ++again) {
+        Eigen::MatrixXd x = b;
+        solver->solve(x);
+        if (found.empty() || x != found.back()) found.push_back(x);
+      }
+    }
+    return found;   // one entry where all were the same bits
+  };
+  const auto first = work(1, 1), second = work(2, 1);
+  std::vector<Eigen::MatrixXd> beside;
+  std::thread other([&] { beside = work(2, 40); });
+  const auto here = work(1, 40);
+  other.join();
+  EXPECT_EQ(here, first);
+  EXPECT_EQ(beside, second);
+}
+
+TEST(SpdSolver, SolvesOfManyColumnsDoNotDependOnThreads) {
+  const test::RandomMatrix random(150, 5);
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(450, 75);
+  Eigen::MatrixXd found[2];
+  for (int threads : {1, 2}) {
+    const auto solver = make_spd_solver();
+    solver->set_threads(threads);
+    solver->analyse(random.blocks);
+    ASSERT_TRUE(solver->factorise(random.blocks));
+    found[threads - 1] = b;
+    solver->solve(found[threads - 1]);
+  }
+  EXPECT_EQ(found[0], found[1]);
+  EXPECT_LT((random.dense * found[0] - b).norm(), 1e-13 * b.norm());
 }
 
 TEST(SpdSolver, SaysWhenAMatrixIsNotPositiveDefiniteAndServesAgain) {

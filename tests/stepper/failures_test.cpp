@@ -114,6 +114,27 @@ TEST(Failures, AConstraintOnANodeThatIsNotThere) {
   }
 }
 
+// Enabled where tissue has sunk meanwhile: refused, and nothing has changed.
+TEST(Failures, AnObstacleEnabledInsideTissueNamesTheNode) {
+  Scene scene = block();
+  scene.constraints.fix("top",
+                        test::nodes_where(scene.mesh, [](const Vec3& x) { return x.z() == 20.0; }));
+  const auto floor = test::moved(test::make_sheet(60, 60, 6, 6), {-20, -20, -0.1});
+  const ConstraintId id = scene.constraints.obstacle("floor", bottom(scene.mesh),
+                                                     Surface::sheet(floor.points, floor.triangles));
+  Stepper stepper(scene);
+  stepper.disable(id);
+  ASSERT_TRUE(stepper.solve_static().converged());
+  const Points sunk = stepper.displacement();
+  ASSERT_LT(sunk.col(2).minCoeff(), -0.2);
+  stepper.enable(id);
+  expect_error(ErrorCode::initial_penetration, "'floor'", [&] { stepper.check_settings(); });
+  expect_error(ErrorCode::initial_penetration, "'floor'", [&] { stepper.solve_static(); });
+  EXPECT_EQ(stepper.displacement(), sunk);
+  stepper.disable(id);
+  EXPECT_TRUE(stepper.solve_static().converged());
+}
+
 TEST(Failures, AnInitialPenetrationNamesTheNode) {
   Scene scene = block();
   scene.constraints.fix("top",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,28 @@
 #include "linear/spd_solver.hpp"
 #include "threads/for_chunks.hpp"
 
+// Of OpenBLAS, 0: its serial build. Null with any other BLAS.
+extern "C" int openblas_get_parallel(void) __attribute__((weak));
+
 namespace brainshift {
 namespace {
+
+// The serial build of OpenBLAS shares its buffers among threads without a lock: two threads in its
+// dtrsm, be it in two solvers, spoil each other's numbers. They take turns then.
+// docs/decisions/threads.md
+class BlasTurn {
+ public:
+  BlasTurn() {
+    if (openblas_get_parallel && openblas_get_parallel() == 0) m_lock = std::unique_lock(mutex());
+  }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex m;
+    return m;
+  }
+  std::unique_lock<std::mutex> m_lock;
+};
 
 // Columns solved for together: enough for the dense kernels, few enough to share among threads.
 constexpr Eigen::Index columns_per_chunk = 16;
@@ -57,6 +78,7 @@ class Workspace {
     b.x = x.data();
     b.xtype = CHOLMOD_REAL;
     b.dtype = CHOLMOD_DOUBLE;
+    const BlasTurn turn;
     cholmod_solve2(CHOLMOD_A, factor, &b, nullptr, &m_solution, nullptr, &m_y, &m_e, &m_common);
     if (m_common.status < CHOLMOD_OK) fail("solve", m_common.status);
     x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(m_solution->x), x.rows(),
@@ -87,6 +109,7 @@ class CholmodSolver final : public SpdSolver {
 
   bool factorise(const BlockMatrix& matrix) override {
     cholmod_sparse a = view(matrix);
+    const BlasTurn turn;
     cholmod_factorize(&a, m_factor, &m_common);
     if (m_common.status == CHOLMOD_NOT_POSDEF) return false;
     if (m_common.status < CHOLMOD_OK) fail("factorisation", m_common.status);

@@ -52,7 +52,13 @@ Vec3 read_vector(const nlohmann::json& value, const std::string& culprit) {
   return Vec3(value[0], value[1], value[2]);
 }
 
-void read_plans(const nlohmann::json& json, const std::string& path, Head& head) {
+struct Marks {   // what head.json holds
+  std::string name;
+  std::map<std::string, Vec3> landmarks;
+  std::map<int, Plan> plans;
+};
+
+void read_plans(const nlohmann::json& json, const std::string& path, Marks& head) {
   if (!json.contains("trajectories")) return;
   for (int side : {left, right}) {
     const auto found = json["trajectories"].find(name_of(side));
@@ -66,7 +72,8 @@ void read_plans(const nlohmann::json& json, const std::string& path, Head& head)
   }
 }
 
-void read_landmarks(const std::string& path, Head& head) {
+Marks read_marks(const std::string& path) {
+  Marks head;
   std::ifstream file(path);
   if (!file) throw Error(ErrorCode::file, path + ": cannot be read");
   const auto json = nlohmann::json::parse(file, nullptr, false);
@@ -87,16 +94,33 @@ void read_landmarks(const std::string& path, Head& head) {
     }
   }
   read_plans(json, path, head);
+  return head;
+}
+
+// Lengths grow about a point; factor 1 leaves every bit.
+void scale(const Vec3& centre, double factor, Points& points) {
+  if (factor == 1.0) return;
+  points = ((points.rowwise() - centre.transpose()) * factor).rowwise() + centre.transpose();
+}
+
+void scale(const Vec3& centre, double factor, Vec3& point) {
+  if (factor != 1.0) point = centre + factor * (point - centre);
 }
 
 }  // namespace
 
-Head read_head(const std::string& folder) {
-  const io::Grid brain = io::read_vtu(folder + "/brain.vtu");
-  const io::Grid cavity = io::read_vtp(folder + "/cavity.vtp");
-  const io::Grid sheet = io::read_vtp(folder + "/falx.vtp");
-  Head head{"", Mesh(brain.points, brain.tets, to_indices(brain.cell_field("region"))),
-            {}, {}, {}, {}, {}, cavity.points, {}, {}, {}, sheet.points, sheet.triangles, {}, {}};
+Head read_head(const std::string& folder, double factor) {
+  Marks marks = read_marks(folder + "/head.json");
+  const Vec3 centre = marks.landmarks.at("AC");
+  io::Grid brain = io::read_vtu(folder + "/brain.vtu");
+  io::Grid cavity = io::read_vtp(folder + "/cavity.vtp");
+  io::Grid sheet = io::read_vtp(folder + "/falx.vtp");
+  for (io::Grid* grid : {&brain, &cavity, &sheet}) scale(centre, factor, grid->points);
+  for (auto& [name, point] : marks.landmarks) scale(centre, factor, point);
+  for (auto& [side, plan] : marks.plans) scale(centre, factor, plan.target);
+  Head head{marks.name, Mesh(brain.points, brain.tets, to_indices(brain.cell_field("region"))),
+            {}, {}, {}, {}, {}, cavity.points, {}, {}, {}, sheet.points, sheet.triangles,
+            marks.landmarks, marks.plans};
   head.pair = to_indices(brain.node_field("pair"));
   head.bridge = marked(brain.node_field("bridge"));
   head.falx = marked(brain.node_field("falx"));
@@ -109,7 +133,6 @@ Head read_head(const std::string& folder) {
   head.midsheet = pick(cavity.triangles, parts, 3, false);
   head.wall[left] = join(walls[left], head.midsheet);
   head.wall[right] = join(walls[right], pick(cavity.triangles, parts, 3, true));
-  read_landmarks(folder + "/head.json", head);
   return head;
 }
 

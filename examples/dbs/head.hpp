@@ -37,6 +37,6 @@ struct Head {
 
 // Reads brain.vtu, cavity.vtp, falx.vtp and head.json; throws brainshift::Error naming the file
 // and what is wrong with it.
-Head read_head(const std::string& folder);
+Head read_head(const std::string& folder, double scale = 1.0);   // of its lengths, about AC
 
 }  // namespace dbs

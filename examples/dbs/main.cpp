@@ -21,7 +21,7 @@ int run(const dbs::Options& options) {
   using namespace dbs;
   const auto start = std::chrono::steady_clock::now();
   // 1. The head: meshes, node sets, landmarks.
-  const Head head = read_head(options.head);
+  const Head head = read_head(options.head, options.scale);
   print_head(head, options);
   // 2. The scene, and a stepper that owns its state.
   Procedure procedure(head, options);

@@ -22,7 +22,33 @@ Loss parse_loss(const std::string& text) {
               "'" + text + "' is no loss of fluid: write 20mL (fluid), 20mL-air or 35mm (level)");
 }
 
+Options preset(const std::string& name) {
+  Options o;
+  o.preset = name;
+  if (name == "default") return o;
+  if (name != "paper-2011") {
+    throw Error(ErrorCode::invalid_argument,
+                "unknown preset '" + name + "'; known: default, paper-2011");
+  }
+  o.mass = 1.4;
+  o.balanced = false;
+  o.fluid = "separate";
+  o.support = "fixed+optic";
+  return o;
+}
+
 namespace {
+
+// The preset is read before the other options, which change it.
+std::string preset_in(int argc, char** argv) {
+  std::string name = "default";
+  CLI::App app;
+  app.allow_extras();
+  app.set_help_flag();
+  app.add_option("--preset", name);
+  app.parse(argc, argv);
+  return name;
+}
 
 void add_electrodes(CLI::App& app, Options& o) {
   const auto group = app.add_option_group("Electrodes");
@@ -58,16 +84,26 @@ void add_electrodes(CLI::App& app, Options& o) {
 }  // namespace
 
 int parse(int argc, char** argv, Options& o) {
+  try {
+    o = preset(preset_in(argc, argv));
+  } catch (const CLI::ParseError&) {
+    // The parser below says what is wrong.
+  }
   CLI::App app{"A deep brain stimulation procedure: fluid is lost, a cannula and an electrode go in on "
                "the right, then on the left, and the fluid comes back in the months after.", "dbs"};
+  std::string name;
+  app.add_option("--preset", name, "default, or paper-2011: what other options start from");
   app.add_option("--head", o.head, "folder of the head (brain.vtu, cavity.vtp, falx.vtp, head.json)")
       ->required();
+  app.add_option("--scale", o.scale, "of the head's lengths, about AC")
+      ->capture_default_str()->check(CLI::Range(0.1, 10.0));
   app.add_option("--out", o.out, "folder for results")->capture_default_str();
   app.add_option("--law", o.law, "linear, corotational, st_venant_kirchhoff or stable_neo_hookean")
       ->capture_default_str();
   app.add_option("--young", o.young, "Young's modulus of the brain, kPa")->capture_default_str();
   app.add_option("--poisson", o.poisson, "Poisson's ratio of the brain")->capture_default_str();
   app.add_option("--density", o.density, "of the brain, kg/m^3")->capture_default_str();
+  app.add_option("--mass", o.mass, "of the meshed brain, kg; sets the density");
   app.add_option("--csf-density", o.csf_density, "of the fluid, kg/m^3")->capture_default_str();
   app.add_option("--right", o.right, "lost on the right: 20mL (fluid), 20mL-air, or 35mm (level)")
       ->capture_default_str();

@@ -21,12 +21,15 @@ struct Loss {
 Loss parse_loss(const std::string& text);
 
 struct Options {
+  std::string preset = "default";
   std::string head;
+  double scale = 1.0;             // of the head's lengths, about its AC
   std::string out = "out/dbs";
   std::string law = "corotational";
   double young = 6.0;             // kPa
   double poisson = 0.45;
   double density = 1040.0;        // kg/m^3
+  double mass = 0.0;              // kg of the meshed brain; above 0 it sets the density
   double csf_density = 1000.0;    // kg/m^3
   std::string right = "20mL", left = "20mL";
   double late = 0.3;              // part of a side's loss that comes while electrodes are tested
@@ -51,6 +54,11 @@ struct Options {
   int threads = 1;
   bool falx = true, skull = true, balanced = true, files = true, quiet = false;
 };
+
+// What a preset stands for; throws Error(invalid_argument) naming the word and the known ones.
+//   default     today's choices, docs/decisions/defaults-of-the-main-job.md
+//   paper-2011  those of Bilger, Dequidt, Duriez, Cotin, MICCAI 2011, docs/decisions/paper-2011.md
+Options preset(const std::string& name);
 
 // Fills `options` from the command line; returns an exit code when the program should end (--help,
 // a bad option), else -1.

@@ -50,9 +50,10 @@ void print_lead(const StageResult& stage, int side) {
 
 void print_head(const Head& head, const Options& o) {
   const double volume = head.brain.volume();
-  std::printf("head %s: %d nodes, %d tets; meshed %.1f mL, %.3f kg at %.0f kg/m^3\n",
-              head.name.c_str(), head.brain.node_count(), head.brain.tet_count(), ml(volume),
-              volume * o.density * 1e-9, o.density);
+  std::printf("preset %s; head %s: %d nodes, %d tets; meshed %.1f mL, %.3f kg at %.0f kg/m^3\n",
+              o.preset.c_str(), head.name.c_str(), head.brain.node_count(), head.brain.tet_count(), ml(volume),
+              volume * density_of(head, o), 1e9 * density_of(head, o));
+  if (o.scale != 1.0) std::printf("lengths times %.4g about AC; ", o.scale);
   std::printf("%s, E %.3g kPa, nu %.3g; head elevated %.3g degrees; fluid %s; %s; falx %s\n",
               o.law.c_str(), o.young, o.poisson, o.elevation, o.fluid.c_str(),
               o.balanced ? "image in balance with full CSF" : "image free of load",

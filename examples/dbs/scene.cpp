@@ -135,8 +135,12 @@ double full_level(const Head& head, const Vec3& gravity) {
   return (head.wall_points * -gravity.normalized()).maxCoeff();
 }
 
+double density_of(const Head& head, const Options& o) {
+  return o.mass > 0.0 ? o.mass / head.brain.volume() : o.density * 1e-9;
+}
+
 Scene make_scene(const Head& head, const Options& o, SceneIds& ids) {
-  const Material tissue(law_from_name(o.law), o.young, o.poisson, o.density * 1e-9);
+  const Material tissue(law_from_name(o.law), o.young, o.poisson, density_of(head, o));
   Scene scene{head.brain, {{Head::region(left), tissue}, {Head::region(right), tissue}}};
   scene.gravity = gravity_of(o.elevation);
   scene.balanced_reference = o.balanced;

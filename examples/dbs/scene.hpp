@@ -13,6 +13,9 @@ struct SceneIds {   // constraint groups the results ask for; -1: not in the sce
 // Gravity for a head elevated by `degrees` (RAS, mm/s^2), and the height axis that goes with it.
 Vec3 gravity_of(double degrees);
 
+// Of the brain, kg/mm^3: given, or from its mass.
+double density_of(const Head& head, const Options& options);
+
 Scene make_scene(const Head& head, const Options& options, SceneIds& ids);
 
 // Level of the full fluid: the top of the cavity along -gravity (mm).

@@ -81,7 +81,7 @@ nlohmann::json to_json(const StageResult& s) {
 }
 
 nlohmann::json to_json(const Options& o) {
-  return {{"law", o.law}, {"young_kPa", o.young}, {"poisson", o.poisson},
+  return {{"preset", o.preset}, {"scale", o.scale}, {"mass_kg", o.mass}, {"law", o.law}, {"young_kPa", o.young}, {"poisson", o.poisson},
           {"density_kg_m3", o.density}, {"csf_density_kg_m3", o.csf_density}, {"right", o.right},
           {"left", o.left}, {"late", o.late}, {"elevation_deg", o.elevation}, {"fluid", o.fluid},
           {"support", o.support}, {"falx", o.falx}, {"skull", o.skull}, {"balanced", o.balanced},

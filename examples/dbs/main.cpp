@@ -35,7 +35,7 @@ int run(const dbs::Options& options) {
     const StageResult& result = stages.back();
     print_stage(result);
     if (!result.report.converged()) break;
-    if (!options.files) continue;
+    if (!options.files || !options.vtk) continue;
     brain.emplace_back(result.time, write_stage(options.out, head, procedure, stage.label));
     for (const std::string& name : write_electrodes(options.out, procedure, result)) {
       electrodes.emplace_back(result.time, name);
@@ -47,10 +47,12 @@ int run(const dbs::Options& options) {
   std::printf("\n%.1f s in all\n", seconds.count());
   if (options.files) {
     write_tables(options.out, head, options, stages);
-    io::write_pvd(options.out + "/stages.pvd", brain);
-    io::write_pvd(options.out + "/stages.electrodes.pvd", electrodes);
-    std::printf("results in %s: stages.json, stages.csv, electrodes.csv; stages.pvd and "
-                "stages.electrodes.pvd for ParaView\n", options.out.c_str());
+    if (options.vtk) {
+      io::write_pvd(options.out + "/stages.pvd", brain);
+      io::write_pvd(options.out + "/stages.electrodes.pvd", electrodes);
+    }
+    std::printf("results in %s: stages.json, stages.csv, electrodes.csv%s\n", options.out.c_str(),
+                options.vtk ? "; stages.pvd and stages.electrodes.pvd for ParaView" : "");
   }
   return stages.back().report.converged() ? 0 : 2;
 }

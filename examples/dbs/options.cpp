@@ -110,6 +110,9 @@ int parse(int argc, char** argv, Options& o) {
   app.add_option("--left", o.left, "lost on the left")->capture_default_str();
   app.add_option("--late", o.late, "part of a side's loss that comes during testing")
       ->capture_default_str()->check(CLI::Range(0.0, 1.0));
+  app.add_option("--imaging-elevation", o.imaging_elevation,
+                 "of the head when the first and the last image were taken (default: as in surgery)")
+      ->check(CLI::Range(-90.0, 90.0));
   app.add_option("--elevation", o.elevation, "of the head above horizontal, degrees")
       ->capture_default_str()->check(CLI::Range(-90.0, 90.0));
   app.add_option("--fluid", o.fluid, "separate: each side its level; communicating: one")
@@ -123,7 +126,8 @@ int parse(int argc, char** argv, Options& o) {
   app.add_flag("--skull,!--no-skull", o.skull, "with or without contact with skull and tentorium");
   app.add_flag("--balanced,!--free", o.balanced,
                "the image is in balance with gravity and full fluid, or free of load");
-  app.add_flag("--files,!--no-files", o.files, "write VTU files of the stages");
+  app.add_flag("--files,!--no-files", o.files, "write results to --out");
+  app.add_flag("--vtk,!--no-vtk", o.vtk, "VTU and VTP files among them");
   app.add_option("--threads", o.threads, "of the solver; no result depends on it")
       ->capture_default_str()->check(CLI::Range(1, 256));
   app.add_flag("--quiet", o.quiet, "no progress");

@@ -33,7 +33,8 @@ struct Options {
   double csf_density = 1000.0;    // kg/m^3
   std::string right = "20mL", left = "20mL";
   double late = 0.3;              // part of a side's loss that comes while electrodes are tested
-  double elevation = 15.0;        // degrees, of the head
+  double elevation = 15.0;        // degrees, of the head in surgery
+  double imaging_elevation = std::numeric_limits<double>::quiet_NaN();   // NaN: the same
   std::string fluid = "communicating";
   std::string support = "elastic";
   // Electrodes.
@@ -52,7 +53,7 @@ struct Options {
   double cannula_depth = 0.0;     // mm the cannula ends short of the target
   bool elastic_cannula = false;   // a steel beam held at the burr hole, instead of a rigid one
   int threads = 1;
-  bool falx = true, skull = true, balanced = true, files = true, quiet = false;
+  bool falx = true, skull = true, balanced = true, files = true, vtk = true, quiet = false;
 };
 
 // What a preset stands for; throws Error(invalid_argument) naming the word and the known ones.

@@ -39,6 +39,9 @@ Procedure::Procedure(const Head& head, const Options& options)
 
 std::vector<Stage> Procedure::make_plan() const {
   std::vector<Stage> stages{{"0", "before surgery", Action::none, right}};
+  if (imaging_elevation(m_options) != m_options.elevation) {
+    stages.push_back({"0b", "head elevated", Action::turn_head, right});
+  }
   const auto add = [&](const char* label, int side, const char* what, Action action) {
     stages.push_back({label, name_of(side) + std::string(", ") + what, action, side});
   };
@@ -60,7 +63,7 @@ std::vector<Stage> Procedure::make_plan() const {
 void Procedure::check_plan() {
   const auto before = m_stepper.snapshot();
   for (const Stage& stage : m_plan) {
-    set_fluid(stage);
+    set_loads(stage);
     m_stepper.check_settings();
   }
   m_stepper.restore(before);
@@ -91,14 +94,16 @@ void Procedure::lose(int side, const Loss& loss, double part) {
   if (loss.law == FluidLaw::air_volume) csf.set_air_volume(mine, amount);
 }
 
-void Procedure::set_fluid(const Stage& stage) {
+void Procedure::set_loads(const Stage& stage) {
   Csf& csf = m_stepper.csf();
+  if (stage.action == Action::turn_head) m_stepper.set_gravity(m_gravity);
   if (stage.action == Action::lose_fluid) {
     lose(stage.side, m_loss[stage.side], 1.0 - m_options.late);
   } else if (stage.action == Action::test) {
     lose(stage.side, m_loss[stage.side], 1.0);
   } else if (stage.action == Action::restore) {
     for (int side : {left, right}) csf.set_full(csf.find(name_of(side)));
+    m_stepper.set_gravity(gravity_of(imaging_elevation(m_options)));
   }
 }
 
@@ -137,7 +142,7 @@ void Procedure::remove_cannula(int side) {
 }
 
 void Procedure::apply(const Stage& stage) {
-  set_fluid(stage);
+  set_loads(stage);
   if (stage.action == Action::insert_cannula) insert_cannula(stage.side);
   if (stage.action == Action::insert_lead) insert_lead(stage.side);
   if (stage.action == Action::remove_cannula) remove_cannula(stage.side);

@@ -14,7 +14,16 @@
 
 namespace dbs {
 
-enum class Action { none, lose_fluid, insert_cannula, insert_lead, test, remove_cannula, restore };
+enum class Action {
+  none,
+  turn_head,   // from the posture of the image to that of surgery
+  lose_fluid,
+  insert_cannula,
+  insert_lead,
+  test,
+  remove_cannula,
+  restore      // fluid, and the posture of the image
+};
 
 struct Stage {
   std::string label;   // 0, 1, ... 6a, 6b, 6c, ... 9
@@ -56,7 +65,7 @@ class Procedure {
   std::vector<Stage> make_plan() const;
   void check_plan();   // every stage's settings, before the first is solved
   void apply(const Stage& stage);
-  void set_fluid(const Stage& stage);
+  void set_loads(const Stage& stage);   // fluid and gravity
   void lose(int side, const Loss& loss, double part);
   void insert_cannula(int side);
   void insert_lead(int side);

@@ -126,6 +126,10 @@ void add_contact(const Head& head, const Options& o, ConstraintSet& set, SceneId
 
 }  // namespace
 
+double imaging_elevation(const Options& o) {
+  return std::isnan(o.imaging_elevation) ? o.elevation : o.imaging_elevation;
+}
+
 Vec3 gravity_of(double degrees) {
   const double angle = degrees * pi / 180.0;
   return standard_gravity * Vec3(0.0, -std::cos(angle), -std::sin(angle));
@@ -142,7 +146,7 @@ double density_of(const Head& head, const Options& o) {
 Scene make_scene(const Head& head, const Options& o, SceneIds& ids) {
   const Material tissue(law_from_name(o.law), o.young, o.poisson, density_of(head, o));
   Scene scene{head.brain, {{Head::region(left), tissue}, {Head::region(right), tissue}}};
-  scene.gravity = gravity_of(o.elevation);
+  scene.gravity = gravity_of(imaging_elevation(o));
   scene.balanced_reference = o.balanced;
   const FluidModel model =
       o.fluid == "separate" ? FluidModel::separate : FluidModel::communicating;

@@ -10,6 +10,9 @@ struct SceneIds {   // constraint groups the results ask for; -1: not in the sce
   ConstraintId skull = -1, falx[2] = {-1, -1}, opposing = -1;
 };
 
+// Of the head in the first image, degrees.
+double imaging_elevation(const Options& options);
+
 // Gravity for a head elevated by `degrees` (RAS, mm/s^2), and the height axis that goes with it.
 Vec3 gravity_of(double degrees);
 

@@ -83,7 +83,8 @@ nlohmann::json to_json(const StageResult& s) {
 nlohmann::json to_json(const Options& o) {
   return {{"preset", o.preset}, {"scale", o.scale}, {"mass_kg", o.mass}, {"law", o.law}, {"young_kPa", o.young}, {"poisson", o.poisson},
           {"density_kg_m3", o.density}, {"csf_density_kg_m3", o.csf_density}, {"right", o.right},
-          {"left", o.left}, {"late", o.late}, {"elevation_deg", o.elevation}, {"fluid", o.fluid},
+          {"left", o.left}, {"late", o.late}, {"elevation_deg", o.elevation},
+          {"imaging_elevation_deg", imaging_elevation(o)}, {"fluid", o.fluid},
           {"support", o.support}, {"falx", o.falx}, {"skull", o.skull}, {"balanced", o.balanced},
           {"sides", o.sides}, {"devices", o.devices}, {"aim", o.aim}, {"lead", o.lead},
           {"test_electrode", o.test_electrode}, {"bending_Nmm2", o.bending},

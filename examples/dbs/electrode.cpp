@@ -16,6 +16,9 @@ void require(bool good, const std::string& what) {
 
 Electrode::Electrode(const Options& options, const Trajectory& trajectory)
     : m_options(options), m_trajectory(trajectory) {
+  for (const std::string& name : {options.lead, options.test_electrode}) {
+    require(name.empty() || device_data(name).contact_count > 0, "'" + name + "' is no electrode");
+  }
   const auto fine = [](double x) { return std::isfinite(x) && x >= 0.0; };
   require(fine(options.bending), "--bending is negative or not a number");
   require(fine(options.friction), "--friction is negative or not a number");

@@ -29,10 +29,13 @@ Procedure::Procedure(const Head& head, const Options& options)
   for (int side : {left, right}) {
     if (options.sides != "both" && options.sides != name_of(side)) {
       m_loss[side].amount = 0.0;
-    } else if (options.devices) {
-      m_side[side].electrode.emplace(options, plan_trajectory(head, options, side));
+      continue;
     }
+    Operated& o = m_side[side];
+    o.trajectory = plan_trajectory(head, options, side);
+    if (options.devices) o.electrode.emplace(options, *o.trajectory);
   }
+  check_losses();
   m_plan = make_plan();
   check_plan();
 }
@@ -58,6 +61,18 @@ std::vector<Stage> Procedure::make_plan() const {
   }
   stages.push_back({"9", "CSF restored", Action::restore, right});
   return stages;
+}
+
+// One fluid can be asked for in one way only.
+void Procedure::check_losses() const {
+  const bool both = m_loss[left].amount > 0.0 && m_loss[right].amount > 0.0;
+  const bool one_fluid = m_stepper.csf().model() == FluidModel::communicating;
+  if (both && one_fluid && m_loss[left].law != m_loss[right].law) {
+    throw Error(ErrorCode::fluid_volume,
+                "--right " + m_options.right + " and --left " + m_options.left +
+                    " are of different kinds, and the communicating fluid is one: ask for both in mL, "
+                    "mL-air or mm, or for --fluid separate");
+  }
 }
 
 void Procedure::check_plan() {
@@ -88,6 +103,9 @@ void Procedure::lose(int side, const Loss& loss, double part) {
     const double others = m_loss[1 - side].amount;
     amount = loss.law == FluidLaw::level ? std::max(amount, others) : amount + others;
   }
+  if (loss.law == FluidLaw::lost_volume) {   // the library counts from the mesh as given
+    amount += m_side[side].lost_before + (one_fluid ? m_side[1 - side].lost_before : 0.0);
+  }
   const Index mine = csf.find(name_of(side));
   if (loss.law == FluidLaw::level) csf.set_level(mine, m_full_level - amount);
   if (loss.law == FluidLaw::lost_volume) csf.set_lost_volume(mine, amount);
@@ -111,7 +129,7 @@ void Procedure::set_loads(const Stage& stage) {
 void Procedure::insert_cannula(int side) {
   Operated& o = m_side[side];
   if (m_options.aim == "tissue") {
-    const Trajectory planned = o.electrode->trajectory();
+    const Trajectory planned = *o.trajectory;
     const PointValues moved = m_stepper.displacement_at(planned.target.transpose());
     const Vec3 target = planned.target + moved.values.row(0).transpose();
     o.electrode.emplace(m_options, make_trajectory(m_head, side, target,
@@ -158,9 +176,16 @@ StageResult Procedure::run(const Stage& stage) {
   apply(stage);
   result.report = m_stepper.solve_static();
   if (!m_options.quiet && isatty(2)) std::fprintf(stderr, "\r%60s\r", "");
-  if (stage.action == Action::none) m_tissue.set_reference(m_stepper);
+  if (stage.action == Action::none && result.report.converged()) {
+    m_tissue.set_reference(m_stepper);
+    for (int side : {left, right}) {
+      m_side[side].lost_before =
+          m_stepper.compartment(m_stepper.csf().find(name_of(side))).lost_volume;
+    }
+  }
   if (result.report.converged()) mark(stage);
   m_tissue.fill(m_stepper, result);
+  for (int side : {left, right}) result.fluid[side].lost_volume -= m_side[side].lost_before;
   for (int side : {left, right}) {
     if (m_side[side].device >= 0) result.lead[side] = measure_lead(side);
   }
@@ -179,9 +204,17 @@ void Procedure::mark(const Stage& stage) {
   }
   if (stage.action != Action::remove_cannula) return;
   o.released.emplace(m_stepper, tip(o));
-  for (Operated& side : m_side) {   // surgery ends with the last of these stages
+  if (!ends_surgery(stage)) return;
+  for (Operated& side : m_side) {
     if (side.device >= 0) side.closed.emplace(m_stepper, tip(side));
   }
+}
+
+bool Procedure::ends_surgery(const Stage& stage) const {
+  for (auto later = m_plan.rbegin(); later != m_plan.rend(); ++later) {
+    if (later->action == Action::remove_cannula) return later->label == stage.label;
+  }
+  return false;
 }
 
 LeadResult Procedure::measure_lead(int side) const {
@@ -203,19 +236,19 @@ LeadResult Procedure::measure_lead(int side) const {
 
 // Gravity drains fluid through a burr hole only down to it.
 std::string Procedure::remark_on(const StageResult& result) const {
+  std::string remark;
   for (int side : {left, right}) {
     const Operated& o = m_side[side];
-    if (!o.electrode || !result.fluid[side].open) continue;
-    const double hole = -m_gravity.normalized().dot(o.electrode->trajectory().inner_table);
+    if (!o.trajectory || !result.fluid[side].open) continue;
+    const double hole = -m_gravity.normalized().dot(o.trajectory->inner_table);
     const double below = hole - result.fluid[side].head;
     if (below <= 0.0) continue;
     char text[160];
-    std::snprintf(text, sizeof text,
-                  "the level on the %s lies %.1f mm below its burr hole: gravity alone would not "
-                  "drain it so far", name_of(side), below);
-    return text;
+    std::snprintf(text, sizeof text, "%sthe level on the %s lies %.1f mm below its burr hole",
+                  remark.empty() ? "" : ", ", name_of(side), below);
+    remark += text;
   }
-  return "";
+  return remark.empty() ? remark : remark + ": gravity alone would not drain it so far";
 }
 
 }  // namespace dbs

@@ -54,7 +54,9 @@ class Procedure {
 
  private:
   struct Operated {   // what has been done on a side
+    std::optional<Trajectory> trajectory;   // with or without devices
     std::optional<Electrode> electrode;
+    double lost_before = 0.0;                 // mm^3 of fluid at stage 0, against the mesh as given
     DeviceId device = -1;
     bool in_cannula = false;
     Points track;                             // where its material was when it was made
@@ -63,6 +65,8 @@ class Procedure {
 
   static Stepper make_stepper(const Head& head, const Options& options, SceneIds& ids);
   std::vector<Stage> make_plan() const;
+  void check_losses() const;
+  bool ends_surgery(const Stage& stage) const;
   void check_plan();   // every stage's settings, before the first is solved
   void apply(const Stage& stage);
   void set_loads(const Stage& stage);   // fluid and gravity

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -13,6 +14,10 @@ namespace {
 
 double ml(double mm3) { return mm3 / mm3_per_ml; }
 
+nlohmann::json number(double value) {   // JSON has no NaN
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
 nlohmann::json to_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 nlohmann::json to_json(const Points& points) {
@@ -21,10 +26,6 @@ nlohmann::json to_json(const Points& points) {
     rows.push_back(to_json(Vec3(points.row(i).transpose())));
   }
   return rows;
-}
-
-nlohmann::json number(double value) {   // JSON has no NaN
-  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
 }
 
 nlohmann::json to_json(const std::optional<Retraction>& r) {
@@ -43,7 +44,8 @@ nlohmann::json to_json(const LeadResult& r) {
           {"contacts_mm", to_json(d.contact_centres)},
           {"bow_mm", d.bow}, {"bow_from_tip_mm", d.bow_arc},
           {"bow_direction", to_json(d.bow_direction)},
-          {"force_of_skull_mN", to_json(d.anchor_force)},
+          {"wire_out_mm", d.slide},
+          {"force_of_skull_or_frame_mN", to_json(d.anchor_force)},
           {"track_mm", to_json(d.path)}, {"track_arc_mm", arcs},
           {"track_force_on_tissue_mN", to_json(d.path_forces)},
           {"track_mean_motion_mm", to_json(r.track_motion)},
@@ -86,7 +88,9 @@ nlohmann::json to_json(const Options& o) {
           {"left", o.left}, {"late", o.late}, {"elevation_deg", o.elevation},
           {"imaging_elevation_deg", imaging_elevation(o)}, {"fluid", o.fluid},
           {"support", o.support}, {"falx", o.falx}, {"skull", o.skull}, {"balanced", o.balanced},
-          {"sides", o.sides}, {"devices", o.devices}, {"aim", o.aim}, {"lead", o.lead},
+          {"sides", o.sides}, {"target", o.target}, {"target_right_mm", o.target_right},
+          {"target_left_mm", o.target_left}, {"sagittal_deg", number(o.sagittal)},
+          {"lateral_deg", number(o.lateral)}, {"devices", o.devices}, {"aim", o.aim}, {"lead", o.lead},
           {"test_electrode", o.test_electrode}, {"bending_Nmm2", o.bending},
           {"friction_kPa", o.friction}, {"slack_mm", o.slack}, {"clamped", o.clamped},
           {"cannula_depth_mm", o.cannula_depth}, {"elastic_cannula", o.elastic_cannula}};
@@ -167,16 +171,14 @@ std::string electrodes_csv(const std::vector<StageResult>& stages) {
 
 void prepare_folder(const std::string& folder) {
   namespace fs = std::filesystem;
+  static const std::regex mine("stage_[0-9][a-c]?(_(left|right)(_track)?)?[.](vtu|vtp|png)|"
+                               "stages([.]electrodes)?[.]pvd|stages[.](json|csv)|electrodes[.]csv");
   fs::create_directories(folder);
+  std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    for (const char* mine : {"stage_", "stages.", "electrodes."}) {
-      if (name.rfind(mine, 0) == 0) {
-        fs::remove(entry.path());
-        break;
-      }
-    }
+    if (std::regex_match(entry.path().filename().string(), mine)) old.push_back(entry.path());
   }
+  for (const fs::path& path : old) fs::remove(path);
 }
 
 void write_tables(const std::string& folder, const Head& head, const Options& o,

@@ -63,6 +63,7 @@ Trajectory make_trajectory(const Head& head, int side, const Vec3& target, const
     refuse(side, "it crosses the midline " + std::to_string(middle) + " mm from the target");
   }
   if (!std::isfinite(skull)) refuse(side, "it does not meet the skull");
+  if (outward.z() <= 0.0) refuse(side, "it leads downwards from its target");
   return {target, outward, target + skull * outward, skull};
 }
 

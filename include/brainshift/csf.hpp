@@ -59,7 +59,8 @@ class Csf {
   void open(Index compartment);                         // air may enter from now on
   void set_full(Index compartment);                     // closes it and restores its fluid
   void set_level(Index compartment, double height);     // mm along -gravity; opens it
-  void set_lost_volume(Index compartment, double mm3);  // >= 0; opens it
+  // Since the reference state; below 0: more fluid than there, in the room of a brain that has shrunk.
+  void set_lost_volume(Index compartment, double mm3);  // opens it
   void set_air_volume(Index compartment, double mm3);   // >= 0; opens it
 
   bool is_open(Index compartment) const { return m_settings[checked(compartment)].open; }

@@ -43,8 +43,11 @@ struct DeviceState {
   Points path;                   // P x 3: where the material points of the track are now
   Eigen::VectorXd path_arcs;     // P; arc length on the device; NaN where the tip is above the point
   Points path_forces;            // P x 3
-  Vec3 anchor_force;             // mN, of the skull on the wire
-  double bow = 0.0;              // mm; largest distance from the chord tip - anchor
+  // mN, of what holds the device (skull, frame) on it: what tissue does not; in step(), without the
+  // device's own inertia.
+  Vec3 anchor_force;
+  double slide = 0.0;            // mm; how far slack has let the anchored section out (+) or in (-)
+  double bow = 0.0;              // mm; largest distance from the chord tip - anchored section
   double bow_arc = 0.0;          // mm from the tip
   Vec3 bow_direction;            // unit; zero without bow
   double largest_tie_gap = 0.0;  // mm; what the transverse ties leave open

@@ -90,7 +90,9 @@ struct SolveReport {
   // max-norm of unbalanced force / largest of the force norms; in time inertia and damping are among
   // the forces
   double residual = 0.0;
-  double complementarity = 0.0;   // max of |min(gap/L, multiplier/F)| over one-sided rows
+  // max of |min(gap/L, multiplier/F)| over one-sided rows (contacts, stops of a wire with slack), and
+  // of what friction exceeds its bound by, over F.
+  double complementarity = 0.0;
   double violation = 0.0;         // mm; largest negative gap
   double last_correction = 0.0;   // mm; max-norm of the last Newton step
   double smallest_jacobian = 1.0; // min over tets of det F
@@ -146,16 +148,20 @@ class Stepper {
   void set_damping(const Damping& damping);   // throws not_finite, invalid_argument if negative
   const Damping& damping() const;
 
-  // Devices. Each call takes effect at once (nothing moves) and is balanced by the next solve.
+  // Devices. Each call takes effect at once (nothing moves) and is balanced by the next solve. Calls
+  // with an id throw Error(invalid_argument) for one that is not there, and all that change something
+  // while a solve is begun.
   // Inserts a straight, unloaded device: the tissue points that lie on its line now become its
   // track and are held across it from then on; along it they slide. Throws Error(invalid_argument)
   // when the tip is not in tissue or the line leaves it in between.
   DeviceId insert(const BeamDevice& device, const Placement& placement, const Hold& hold = {},
                   const TrackOptions& options = {});
   // Another device on the same track, straight along the placement of the old one, its tip
-  // `advance` (mm, >= 0) deeper; the tissue crossed there joins the track. Forces along the track
-  // stay. Throws Error(invalid_argument) when the tip would leave the tissue.
+  // `advance` (mm, >= 0) deeper; the tissue crossed there joins the track. Forces of the track stay
+  // (friction as far as the new device can bear it); shape and velocity of the old device go with it.
+  // Throws Error(invalid_argument) when the tip would leave the tissue.
   void exchange(DeviceId id, const BeamDevice& device, const Hold& hold, double advance = 0.0);
+  // Another hold, in the shape the device has now. The same errors as of insert().
   void set_hold(DeviceId id, const Hold& hold);
   void remove(DeviceId id);
   DeviceState device(DeviceId id) const;   // of the last good state; throws invalid_argument

@@ -8,7 +8,6 @@
 namespace brainshift {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 // A direction across the tangent that varies smoothly: the section's own, made orthogonal to it.
@@ -69,8 +68,7 @@ std::vector<CouplingRow> Coupling::rows(const Points& u,
       rows.push_back({d, p, 1, RowKind::across, second, foot.place, second.dot(off), -unbounded,
                       unbounded});
       const double arc = arc_of(device.beam, foot.place), from = m_start_arcs[d][p];
-      const double bound = device.options.shear_bound * 2.0 * pi *
-                           device.beam.device().radius_at(arc) * device.path[p].length;
+      const double bound = friction_bound(device, device.path[p], arc);
       if (bound > 0.0) {
         const double slip = std::isnan(from) ? 0.0 : arc - from;
         rows.push_back({d, p, 2, RowKind::along, tangent, foot.place, slip, -bound, bound});

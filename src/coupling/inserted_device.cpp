@@ -45,6 +45,11 @@ InsertedDevice place_device(DeviceId id, const BeamDevice& device, const Placeme
   return inserted;
 }
 
+double friction_bound(const InsertedDevice& device, const PathPoint& point, double arc) {
+  constexpr double pi = 3.14159265358979323846;
+  return device.options.shear_bound * 2.0 * pi * device.beam.device().radius_at(arc) * point.length;
+}
+
 Vec3 path_position(const Mesh& mesh, const Points& u, const PathPoint& point) {
   Vec3 x = Vec3::Zero();
   for (int a = 0; a < 4; ++a) {

@@ -41,6 +41,9 @@ InsertedDevice place_device(DeviceId id, const BeamDevice& device, const Placeme
                             const Hold& hold, const TrackOptions& options,
                             std::vector<PathPoint> path);
 
+// Largest friction (mN) on the part of the track a point stands for, at an arc length of the device.
+double friction_bound(const InsertedDevice& device, const PathPoint& point, double arc);
+
 // Position of a path point for displacements u.
 Vec3 path_position(const Mesh& mesh, const Points& u, const PathPoint& point);
 

@@ -54,7 +54,7 @@ void Csf::set(Index compartment, FluidLaw law, double amount) {
   if (!std::isfinite(amount)) {
     throw Error(ErrorCode::not_finite, "Csf: the amount set for '" + name + "' is not finite");
   }
-  if (law != FluidLaw::level && amount < 0.0) {
+  if (law == FluidLaw::air_volume && amount < 0.0) {
     throw Error(ErrorCode::fluid_volume, "Csf: a volume of " + std::to_string(amount) +
                                              " mm^3 set for '" + name + "' is negative");
   }

@@ -138,7 +138,7 @@ void Hydrostatics::configure(const Csf& csf, const Vec3& gravity) {
       free_space += next.m_wall_volume[c] - m_rest_tissue[c];
     }
     const bool volume = group.law == FluidLaw::lost_volume || group.law == FluidLaw::air_volume;
-    if (volume && group.amount > free_space) {
+    if (volume && std::abs(group.amount) > free_space) {
       throw Error(ErrorCode::fluid_volume, ml(group.amount) + " asked of compartment '" + name +
                                                "', which holds " + ml(free_space) + " of fluid");
     }

@@ -89,7 +89,7 @@ void Newton::solve() {
 }
 
 Newton::Outcome Newton::update() {
-  if (!m_found) return Outcome::stuck;
+  if (!m_found) return m_fresh ? Outcome::stuck : blame();
   MechanicalState next = m_state;
   const double part = search(m_step, next);
   const Outcome outcome = part > 0.0 ? take(part, next) : blame();

@@ -92,7 +92,7 @@ class Newton {
   void move_devices(const Step& step, double part, MechanicalState& next) const;
   DeviceVectors coupled_device_load() const;
   double device_residual() const;
-  void measure_coupling();
+  void measure_coupling(double force_scale);
   double merit_of_rows(const MechanicalState& state, double weight) const;
   double device_energy(const std::vector<DeviceMotion>& motions) const;
   Eigen::VectorXd coupling_force() const;

@@ -26,8 +26,8 @@ void Newton::measure() {
   bool finite = std::isfinite(scale) && total.allFinite();
   for (const Eigen::VectorXd& load : m_device_load) finite = finite && load.allFinite();
   if (!finite) m_report.residual = std::numeric_limits<double>::infinity();
-  measure_coupling();
   m_report.complementarity = 0.0;
+  measure_coupling(scale);
   m_report.violation = 0.0;
   m_report.active_contacts = 0;
   for (std::size_t r = 0; r < m_forces.gaps.size(); ++r) {

@@ -237,15 +237,26 @@ double Newton::device_residual() const {
   return largest;
 }
 
-void Newton::measure_coupling() {
+// Open ties and stops, and how far multipliers are from their boxes. Of friction at its bound the slip
+// must go against the force: gap grows with the multiplier's push, so both have opposite signs.
+void Newton::measure_coupling(double force_scale) {
   m_report.tie_gap = 0.0;
   m_report.coupling_rows = Index(m_couplings.size());
+  const double diameter = m_eq.mesh().diameter();
   for (const CouplingRow& row : m_couplings) {
     const double multiplier = multiplier_of(m_state.devices[row.device], row);
-    const bool slips = row.kind == RowKind::along && std::abs(multiplier) >= (1.0 - 1e-9) * row.upper;
-    if (slips) continue;
-    const bool at_stop = row.one_sided() && multiplier > 0.0;
-    const double open = at_stop ? std::abs(row.gap) : open_gap(row, row.gap);
+    const double beyond = std::max({0.0, row.lower - multiplier, multiplier - row.upper});
+    double wrong = beyond / force_scale;
+    double open = open_gap(row, row.gap);
+    if (row.one_sided()) {
+      wrong = std::max(wrong, std::abs(std::min(row.gap / diameter, multiplier / force_scale)));
+    } else if (row.kind == RowKind::along) {
+      const double left = row.upper - std::abs(multiplier);   // of the bound
+      const bool against = row.gap * multiplier <= 0.0;
+      // Sticking: no slip; at the bound: slip against the force.
+      open = against ? std::min(open, std::max(left, 0.0) * diameter / force_scale) : open;
+    }
+    m_report.complementarity = std::max(m_report.complementarity, wrong);
     m_report.tie_gap = std::max(m_report.tie_gap, open);
   }
 }

@@ -191,7 +191,8 @@ std::shared_ptr<const Stepper::Snapshot> Stepper::snapshot() const {
 
 void Stepper::restore(const std::shared_ptr<const Snapshot>& snapshot) {
   m_impl->refuse_when_begun("restore");
-  if (!snapshot || snapshot->u.rows() != m_impl->m_mesh.node_count()) {
+  const Mesh& mesh = m_impl->m_mesh;
+  if (!snapshot || snapshot->mesh.nodes() != mesh.nodes() || snapshot->mesh.tets() != mesh.tets()) {
     throw Error(ErrorCode::invalid_argument, "the snapshot is empty or of another mesh");
   }
   if (snapshot->wanted.csf.has_value() != m_impl->m_state.wanted.csf.has_value()) {

@@ -1,4 +1,5 @@
 // Stepper: devices in and out, and what became of them.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -10,10 +11,16 @@
 namespace brainshift {
 namespace {
 
-void check_hold(const Hold& hold) {
+void check_hold(const Hold& hold, double length) {
   const auto bad = [](double arc) { return std::isnan(arc) || arc < 0.0; };
   if (bad(hold.rigid_from) || bad(hold.anchor)) {
     throw Error(ErrorCode::invalid_argument, "Hold: an arc length is negative or not a number");
+  }
+  const auto beyond = [&](double arc) { return std::isfinite(arc) && arc > length * (1.0 + 1e-9); };
+  if (beyond(hold.rigid_from) || beyond(hold.anchor)) {
+    throw Error(ErrorCode::invalid_argument,
+                "Hold: an arc length lies beyond the device, which is " + std::to_string(length) +
+                    " mm long");
   }
   if (!(hold.slack >= 0.0) || std::isinf(hold.slack)) {
     throw Error(ErrorCode::invalid_argument, "Hold: slack is negative or not finite");
@@ -29,7 +36,7 @@ void check_hold(const Hold& hold) {
 DeviceId Stepper::insert(const BeamDevice& device, const Placement& placement, const Hold& hold,
                          const TrackOptions& options) {
   m_impl->refuse_when_begun("insert");
-  check_hold(hold);
+  check_hold(hold, device.length());
   if (!(options.shear_bound >= 0.0) || !(options.least_spacing > 0.0)) {
     throw Error(ErrorCode::invalid_argument,
                 "TrackOptions: shear_bound must be at least 0 and least_spacing positive");
@@ -49,7 +56,7 @@ DeviceId Stepper::insert(const BeamDevice& device, const Placement& placement, c
 
 void Stepper::exchange(DeviceId id, const BeamDevice& device, const Hold& hold, double advance) {
   m_impl->refuse_when_begun("exchange");
-  check_hold(hold);
+  check_hold(hold, device.length());
   if (!(advance >= 0.0) || !std::isfinite(advance)) {
     throw Error(ErrorCode::invalid_argument, "exchange: advance is negative or not finite");
   }
@@ -64,13 +71,18 @@ void Stepper::exchange(DeviceId id, const BeamDevice& device, const Hold& hold, 
     multipliers.insert(multipliers.begin(), path.size() - old.path.size(), Vec3::Zero());
   }
   InsertedDevice next = place_device(id, device, placement, hold, old.options, std::move(path));
+  // Friction carried over is no more than the new device can bear: its radius may be smaller.
+  for (std::size_t p = 0; p < multipliers.size(); ++p) {
+    const double bound = friction_bound(next, next.path[p], next.path[p].arc);
+    multipliers[p][2] = std::clamp(multipliers[p][2], -bound, bound);
+  }
   next.motion.multipliers = std::move(multipliers);
   old = std::move(next);
 }
 
 void Stepper::set_hold(DeviceId id, const Hold& hold) {
   m_impl->refuse_when_begun("set_hold");
-  check_hold(hold);
+  check_hold(hold, m_impl->device(id).beam.device().length());
   m_impl->device(id).hold = hold;
 }
 
@@ -119,6 +131,11 @@ DeviceState Stepper::device(DeviceId id) const {
   }
   // The skull holds what tissue does not: all coupling forces add up to the anchor's.
   s.anchor_force = s.path_forces.colwise().sum().transpose();
+  const Index anchored = d.anchor_node();
+  if (anchored >= 0) {
+    const Vec3 hole = d.placement.tip + d.beam.device().arcs()[anchored] * d.placement.outward;
+    s.slide = (beam.x.row(anchored).transpose() - hole).dot(d.placement.outward);
+  }
   const double wire = std::isfinite(d.hold.anchor) ? d.hold.anchor : d.beam.device().length();
   const Bow bent = bow(d.beam, beam, 0.0, std::min(wire, d.beam.device().length()));
   s.bow = bent.size;

@@ -29,6 +29,8 @@ struct Settings {
 // What snapshot() keeps. Multipliers by group, so that groups may come and go.
 class Stepper::Snapshot {
  public:
+  explicit Snapshot(Mesh of) : mesh(std::move(of)) {}
+  Mesh mesh;         // shared, not copied
   Points u;
   Points velocity;
   std::map<ConstraintId, Eigen::VectorXd> multipliers;
@@ -43,7 +45,7 @@ class Stepper::Impl {
   using State = Snapshot;
 
   Impl(Scene scene, StepperOptions options)
-      : m_mesh(scene.mesh), m_options(std::move(options)), m_equilibrium(scene) {
+      : m_mesh(scene.mesh), m_options(std::move(options)), m_equilibrium(scene), m_state(m_mesh) {
     check_options();
     m_equilibrium.set_threads(m_options.threads);
     m_state.wanted = {std::move(scene.csf), std::move(scene.constraints), scene.gravity, {}};

@@ -7,7 +7,6 @@
 #include <atomic>
 #include <exception>
 #include <functional>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -35,10 +34,11 @@ inline void for_chunks(int threads, Index chunks, const std::function<void(Index
     }
   };
   std::vector<std::thread> helpers;
+  helpers.reserve(std::size_t(threads));
   try {
     for (int t = 1; t < std::min<int>(threads, chunks); ++t) helpers.emplace_back(take);
-  } catch (const std::system_error&) {
-    // No more threads to be had: those that run, and this one, do the work.
+  } catch (...) {
+    // No more threads to be had, or no memory for them: those that run, and this one, do the work.
   }
   take();
   for (std::thread& helper : helpers) helper.join();

@@ -156,6 +156,25 @@ TEST(Devices, ALeadGoesDeeperThroughItsCannula) {
   }
 }
 
+// A thinner device bears less friction than the one it takes over from: no solve may say otherwise.
+TEST(Devices, FrictionCarriedOverStaysWithinTheNewBound) {
+  Stepper stepper(leaning_block(0.0));
+  TrackOptions track;
+  track.shear_bound = 0.002;
+  const BeamDevice cannula = make_device("cannula", 55.0);
+  const DeviceId id = stepper.insert(cannula, {tip, outward}, whole(), track);
+  stepper.set_gravity({0.0, 0.0, -0.05 * 9810.0});
+  ASSERT_TRUE(stepper.solve_static().converged());
+  const double before = stepper.device(id).anchor_force.dot(outward);
+  stepper.exchange(id, lead(), whole());
+  const SolveReport report = stepper.solve_static();
+  ASSERT_TRUE(report.converged()) << report.message;
+  EXPECT_LE(report.complementarity, 1e-8);
+  const double after = stepper.device(id).anchor_force.dot(outward);
+  // All rows slip, so that the forces are as the radii.
+  EXPECT_NEAR(after / before, lead().radius_at(1.0) / cannula.radius_at(1.0), 1e-6);
+}
+
 TEST(Devices, BranchesFromOneSnapshotAreTheSameBits) {
   Stepper stepper(leaning_block(0.01));
   ASSERT_TRUE(stepper.solve_static().converged());
@@ -178,6 +197,10 @@ TEST(Devices, AreRefusedWhereTheyCannotBe) {
                [&] { stepper.insert(lead(), {Vec3(100, 0, 0), outward}, wire_only()); });
   expect_error(ErrorCode::invalid_argument, {"nothing holds"},
                [&] { stepper.insert(lead(), {tip, outward}, Hold{}); });
+  expect_error(ErrorCode::invalid_argument, {"beyond the device", "55"},
+               [&] { stepper.insert(lead(), {tip, outward}, {1000.0, wire, false, 0.0}); });
+  expect_error(ErrorCode::invalid_argument, {"beyond the device"},
+               [&] { stepper.insert(lead(), {tip, outward}, {0.0, 1000.0, false, 0.0}); });
   expect_error(ErrorCode::invalid_argument, {"slack"},
                [&] { stepper.insert(lead(), {tip, outward}, wire_only(-1.0)); });
   expect_error(ErrorCode::invalid_argument, {"unit length"},

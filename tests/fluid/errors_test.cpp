@@ -100,7 +100,7 @@ TEST(FluidErrors, NoGravity) {
 
 TEST(FluidErrors, AmountsThatCannotBe) {
   test::BallInCavity s;
-  expect_error(ErrorCode::fluid_volume, "'all'", [&] { s.csf.set_lost_volume(0, -1.0); });
+  expect_error(ErrorCode::fluid_volume, "'all'", [&] { s.csf.set_air_volume(0, -1.0); });
   expect_error(ErrorCode::fluid_volume, "'all'", [&] { s.csf.set_air_volume(0, -1.0); });
   expect_error(ErrorCode::not_finite, "'all'", [&] { s.csf.set_level(0, not_a_number); });
   expect_error(ErrorCode::not_finite, "'all'", [&] { s.csf.set_lost_volume(0, not_a_number); });

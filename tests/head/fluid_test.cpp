@@ -152,5 +152,36 @@ TEST(Fluid, LevelAndVolumeAreInverseAtEquilibrium) {
   EXPECT_NEAR(found, lost, 1e-6 * mm3_per_ml);
 }
 
+// Air is what fluid was lost plus what the brain has lost, each since stage 0, at every stage.
+TEST(Fluid, AirIsWhatFluidAndBrainHaveLost) {
+  for (bool balanced : {true, false}) {
+    for (const char* fluid : {"communicating", "separate"}) {
+      Options o = quiet_options();
+      o.devices = false;
+      o.balanced = balanced;
+      o.fluid = fluid;
+      o.sides = "right";
+      o.right = "18mL";
+      o.late = 0.0;
+      Procedure procedure(shipped_head(), o);
+      double worst = 0.0;
+      for (const Stage& stage : procedure.plan()) {
+        const StageResult r = procedure.run(stage);
+        ASSERT_TRUE(r.report.converged()) << r.report.message;
+        const double lost = r.fluid[left].lost_volume + r.fluid[right].lost_volume;
+        const double air = r.fluid[left].air_volume + r.fluid[right].air_volume;
+        worst = std::max(worst, std::abs(air - lost - r.tissue_loss));
+        if (stage.label == "1") {   // of the whole fluid, or of the open side's
+          const double of = o.fluid == "communicating" ? lost : r.fluid[right].lost_volume;
+          EXPECT_NEAR(of, 18.0 * mm3_per_ml, 1e-5 * mm3_per_ml);
+        }
+      }
+      std::printf("%s, %s: air - fluid lost - brain lost at most %.1e mL\n", fluid,
+                  balanced ? "balanced" : "free of load", worst / mm3_per_ml);
+      EXPECT_LE(worst, 1e-5 * mm3_per_ml);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dbs

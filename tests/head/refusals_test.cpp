@@ -73,6 +73,7 @@ TEST_F(Refusals, NameVolumesOfFluidThatCannotBe) {
   expect_refusal("--right 2000mL", {"1400.0", "mL"});  // of them lost early
   expect_refusal("--right 10mL --left 5000mL-air", {"mL"});
   expect_refusal("--right nanmL", {"nan"});
+  expect_refusal("--right 20mL --left 30mm", {"different kinds", "20mL", "30mm"});
 }
 
 TEST_F(Refusals, NameTrajectoriesThatCannotBe) {
@@ -81,11 +82,13 @@ TEST_F(Refusals, NameTrajectoriesThatCannotBe) {
   expect_refusal("--target-right -11 -12 -8", {"right", "other half"});
   expect_refusal("--lateral=-60", {"crosses the midline"});
   expect_refusal("--sides left --lateral=-60", {"left", "crosses the midline"});
+  expect_refusal("--sagittal 200", {"leads downwards"});
   expect_refusal("--target VIM", {"landmark 'VIM_"});
   expect_refusal("--target-left nan 0 0 --sides left", {"left", "not finite"});
 }
 
 TEST_F(Refusals, NameDevicesThatCannotBe) {
+  expect_refusal("--lead cannula", {"'cannula' is no electrode"});
   expect_refusal("--lead spaghetti", {"'spaghetti'", "3389"});
   expect_refusal("--test-electrode spaghetti", {"'spaghetti'"});
   expect_refusal("--bending=-1", {"--bending"});

@@ -68,6 +68,19 @@ TEST(State, ASnapshotServesAnotherStepperOfTheSameScene) {
   EXPECT_TRUE(test::same_bits(a.displacement(), b.displacement()));
 }
 
+TEST(State, ASnapshotOfAnotherMeshIsRefused) {
+  const auto block = [](int nx, int ny) {   // as many nodes either way round
+    Scene scene{test::make_mesh(test::make_box({20, 20, 20}, nx, ny, 2)),
+                {{0, Material(Law::linear, 6.0, 0.45, test::tissue_density)}}};
+    scene.constraints.fix("base", {0, 1, 2, 3, 4, 5});
+    return scene;
+  };
+  Stepper one(block(2, 3)), other(block(3, 2));
+  ASSERT_EQ(one.mesh().node_count(), other.mesh().node_count());
+  EXPECT_THROW(one.restore(other.snapshot()), Error);
+  EXPECT_NO_THROW(one.restore(Stepper(block(2, 3)).snapshot()));
+}
+
 TEST(State, SolvingAgainWithoutAChangeMovesNothing) {
   Stepper stepper(busy_scene());
   stepper.csf().set_lost_volume(0, 2000.0);

@@ -1,0 +1,51 @@
+"""Tables as CSV, and docs/validation.md."""
+import csv
+import io
+
+TEXT = {
+    "sweep": ("Air against motion", """Air of both sides together, asked for as a volume; `dbs` solves for the level. D is the motion of the
+tip along its trajectory from right after its cannula left to after recovery, positive towards the burr
+hole, mean of the electrodes; STN, AC, PC, MCP (mid-commissural point) and pole (the frontal pole that
+moves more) at the end of surgery; bow out: right after the cannula left. All in mm, RAS."""),
+    "claims": ("The paper's claims, ingredient on and off", """40 mL of air on both sides. First shift: largest motion of a side's surface after the right craniotomy.
+Second: motion of the right STN as the right cannula leaves; beside it, as part of the first. Inverse:
+motion of the right STN at recovery. Bow y: component of the bow's direction forwards."""),
+    "sensitivity": ("Which choices decide", "One choice changed at a time."),
+    "movers": ("What moves a lead", "Default preset, 40 mL of air on both sides."),
+    "ablation": ("What a scene needs", """Default preset, 22 mL on both sides, state before the left cannula leaves (one side: the right). Seconds
+are of this machine and depend on what runs beside; ratios mean more."""),
+    "uncertainty": ("Uncertainty", """Right side only; stiffness, lead stiffness, friction and loss drawn evenly in the logarithm, Poisson's
+ratio and elevation evenly, from a fixed seed. Linearised: central values and one finite difference
+each."""),
+    "clinic": ("Against patients", """The default preset at the volumes the series had; a difference of less than 1 mm is within what imaging
+resolves, 1.5 to 2 mm between localisation tools."""),
+}
+FIGURES = {"sweep": ["retraction"], "claims": ["stages", "lead"],
+           "sensitivity": ["tornado_stn", "tornado_d"]}
+
+
+def write_csv(path, table):
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(table)
+    path.write_text(text.getvalue())
+
+
+def markdown(table):
+    head, *rows = table
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def write_page(path, done, long):
+    parts = ["# Validation\n", f"Written by `bench/validation/run {'--long' if long else '--short'} "
+             "--write-docs`. What the figures mean is said in [validation-notes](validation-notes.md).\n"]
+    for name, (table, _) in done.items():
+        title, text = TEXT[name]
+        parts += [f"\n## {title}\n", text + "\n"]
+        parts += [f"![{title}](pictures/validation_{f}.png)\n" for f in FIGURES.get(name, [])]
+        shown = table
+        if name == "sensitivity":   # the CSV holds every figure
+            columns = [0, 1, 2, 3, 6, 7, 8]
+            shown = [[row[c] if c < len(row) else "" for c in columns] for row in table]
+        parts.append(markdown(shown) + "\n")
+    path.write_text("\n".join(parts))

@@ -1,0 +1,261 @@
+"""The studies: which runs, and the table each of them gives (a list of rows, first the header)."""
+import numpy as np
+
+PRESETS = {
+    "default": [],
+    "paper-2011": ["--preset", "paper-2011"],
+    "paper-2011, MNI size": ["--preset", "paper-2011", "--scale", "1.056"],
+}
+PAPER = {22: 3.0, 62: 6.8}             # Bilger 2011: D (mm) at V (mL)
+
+
+def law(volume):
+    """Empirical law quoted by the paper: mm at mL."""
+    return 2.0 + 0.08 * volume
+
+
+def both(volume):
+    """Air of both sides together, mL."""
+    return ["--right", f"{volume / 2:g}mL-air", "--left", f"{volume / 2:g}mL-air"]
+
+
+def right(volume):
+    return ["--sides", "right", "--right", f"{volume:g}mL-air"]
+
+
+def number(value, digits=3):
+    return "" if value is None or not np.isfinite(value) else f"{value:.{digits}f}"
+
+
+HEADLINES = ["air mL", "-dV mL", "D skull", "D tissue", "STN |shift|", "STN y", "STN z", "AC", "PC",
+             "MCP y", "pole", "bow out", "bow 9"]
+
+
+def headline(run):
+    """The figures of a run, in the order of HEADLINES; mm unless said. STN: of the right side."""
+    if not run.converged:
+        return [run.message.replace("dbs: ", "") or "no balance"] + [""] * (len(HEADLINES) - 1)
+    stn = run.shift("STN_right")
+    out = {"right": "5", "left": "8"}
+    sides = run.sides()
+    bows = [np.mean([run.electrode(s, label)["bow_mm"] for s, label in
+                     ((s, out[s] if when == "out" else "9") for s in sides)])
+            for when in ("out", "9")] if sides else [np.nan, np.nan]
+    retractions = [run.mean_retraction(f) for f in ("skull", "tissue")] if sides else [np.nan] * 2
+    pole = max(np.linalg.norm(run.shift(f"frontal_pole_{s}")) for s in ("left", "right"))
+    values = [run.air(), run.brain_volume_lost(), *retractions, np.linalg.norm(stn), stn[1], stn[2],
+              np.linalg.norm(run.shift("AC")), np.linalg.norm(run.shift("PC")), run.shift("MCP")[1],
+              pole, *bows]
+    return [number(v, 1 if i < 2 else 3) for i, v in enumerate(values)]
+
+
+def sweep(runner, volumes):
+    """Air volume, on one side and on both, in every preset."""
+    ways = {"both": both, "right": right}
+    cases = {(preset, way, v): [*options, *ways[way](v)]
+             for preset, options in PRESETS.items() for way in ways for v in volumes}
+    runs = runner.all(cases)
+    rows = [["preset", "sides", "asked mL", *HEADLINES]]
+    rows += [[preset, way, f"{v:g}", *headline(run)] for (preset, way, v), run in runs.items()]
+    return rows, runs
+
+
+def claims(runner):
+    """Each qualitative claim of the paper with its ingredient on and off."""
+    variants = {
+        "as it is": [], "no falx": ["--no-falx"],
+        "other fluid": None,          # separate <-> communicating
+        "no loss while testing": ["--late", "0"],
+    }
+    cases = {}
+    for preset, options in PRESETS.items():
+        other = ["--fluid", "separate" if preset == "default" else "communicating"]
+        for name, change in variants.items():
+            cases[preset, name] = [*options, *both(40), *(other if change is None else change)]
+    runs = runner.all(cases)
+    rows = [["preset", "variant", "first shift R mm", "first shift L mm", "midline mm",
+             "second shift mm", "second/first", "inverse shift mm", "bow 5 y", "bow 5", "bow 9 y",
+             "bow 9"]]
+    for (preset, name), run in runs.items():
+        if not run.converged:
+            rows.append([preset, name, *headline(run)[:1], *[""] * 9])
+            continue
+        first = {s: run.stages["1"]["sides"][s]["largest_surface_motion_mm"] for s in ("right", "left")}
+        stn1 = np.linalg.norm(run.shift("STN_right", "1"))
+        before = "4" if "4" in run.stages else "3"
+        second = np.linalg.norm(run.shift("STN_right", "5") - run.shift("STN_right", before))
+        inverse = np.linalg.norm(run.shift("STN_right", "9") - run.shift("STN_right", "8"))
+        bows = []
+        for label in ("5", "9"):
+            lead = run.electrode("right", label)
+            bows += [number(lead["bow_direction"][1], 2), number(lead["bow_mm"])]
+        rows.append([preset, name, number(first["right"]), number(first["left"]),
+                     number(run.stages["1"]["midline_shift_mm"]), number(second),
+                     number(second / stn1), number(inverse), *bows])
+    return rows, runs
+
+
+SENSITIVITY = {                         # name: (low, high); None: only one other choice
+    "E 2.1, 40 kPa": (["--young", "2.1"], ["--young", "40"]),
+    "nu 0.40, 0.49": (["--poisson", "0.40"], ["--poisson", "0.49"]),
+    "law StVK, stable NH": (["--law", "st_venant_kirchhoff"], ["--law", "stable_neo_hookean"]),
+    "elevation 0, 30 deg": (["--elevation", "0"], ["--elevation", "30"]),
+    "stem elastic, fixed+optic": (["--support", "elastic"], ["--support", "fixed+optic"]),
+    "reference balanced, free": (["--balanced"], ["--free"]),
+    "density 1000, 1081": (["--density", "1000", "--mass", "0"], ["--density", "1081", "--mass", "0"]),
+    "friction 0.05, 0.5 kPa": (["--friction", "0.05"], ["--friction", "0.5"]),
+    "slack 1, 3 mm": (["--slack", "1"], ["--slack", "3"]),
+    "lead EI 1, 100 N mm2": (["--bending", "1"], ["--bending", "100"]),
+    "no falx": (["--no-falx"], None),
+    "fluid separate, communicating": (["--fluid", "separate"], ["--fluid", "communicating"]),
+    "sagittal 55, 70 deg": (["--sagittal", "55"], ["--sagittal", "70"]),
+    "late loss 0, 0.6": (["--late", "0"], ["--late", "0.6"]),
+}
+
+
+def sensitivity(runner):
+    """One choice changed at a time, at 22 and 62 mL of air."""
+    cases = {}
+    for preset, options in PRESETS.items():
+        for volume in PAPER:
+            cases[preset, volume, "base", 0] = [*options, *both(volume)]
+            for name, ends in SENSITIVITY.items():
+                for i, change in enumerate(ends):
+                    if change is not None:
+                        cases[preset, volume, name, i] = [*options, *both(volume), *change]
+    runs = runner.all(cases)
+    rows = [["preset", "asked mL", "choice", "end", *HEADLINES]]
+    rows += [[preset, f"{volume}", name, str(i), *headline(run)]
+             for (preset, volume, name, i), run in runs.items()]
+    return rows, runs
+
+
+def movers(runner):
+    """What moves a lead: friction from none to bonded, slack, loss while the cannula is in."""
+    cases = {(friction, slack, late): [*both(40), "--friction", friction, "--slack", slack,
+                                       "--late", late]
+             for friction in ("0", "0.02", "0.1", "0.5", "5") for slack in ("0", "2", "6")
+             for late in ("0.3", "0.8") if late == "0.3" or slack == "0"}
+    runs = runner.all(cases)
+    rows = [["friction kPa", "slack mm", "late", *HEADLINES]]
+    rows += [[*case, *headline(run)] for case, run in runs.items()]
+    return rows, runs
+
+
+ABLATION = {
+    "everything": [], "no devices": ["--no-devices"], "one side": ["--sides", "right"],
+    "no falx": ["--no-falx"], "linear law": ["--law", "linear"],
+    "St. Venant-Kirchhoff": ["--law", "st_venant_kirchhoff"], "stem fixed": ["--support", "fixed"],
+    "separate fluid": ["--fluid", "separate"], "image free of load": ["--free"],
+}
+
+
+def ablation(runner):
+    """What a scene needs: change of the STN's shift after the first stage of the right side."""
+    runs = runner.all({name: [*both(22), *change] for name, change in ABLATION.items()})
+    whole = runs["everything"]
+    rows = [["left out", "STN right off by mm", "of mm", "solves s", "of the whole s"]]
+    for name, run in runs.items():
+        if not run.converged:
+            rows.append([name, headline(run)[0], "", "", ""])
+            continue
+        label = "4" if name == "one side" else "7"
+        off = np.linalg.norm(run.shift("STN_right", label) - whole.shift("STN_right", label))
+        rows.append([name, number(off), number(np.linalg.norm(whole.shift("STN_right", label))),
+                     number(run.seconds, 1), number(whole.seconds, 1)])
+    return rows, runs
+
+
+# Ranges of the uncertain, each drawn evenly (the first four in the logarithm).
+RANGES = {"--young": (2.1, 15.0), "--bending": (1.0, 20.0), "--friction": (0.005, 0.5),
+          "loss": (8.0, 60.0), "--poisson": (0.42, 0.49), "--elevation": (10.0, 20.0)}
+
+
+def samples(count, seed=2011):
+    draw = np.random.default_rng(seed).random((count, len(RANGES)))
+    for row in draw:
+        values = {}
+        for i, ((name, (low, high)), x) in enumerate(zip(RANGES.items(), row)):
+            values[name] = low * (high / low) ** x if i < 4 else low + (high - low) * x
+        yield values
+
+
+def options_of(values):
+    options = ["--sides", "right"]
+    for name, value in values.items():
+        options += ["--right", f"{value:.4g}mL"] if name == "loss" else [name, f"{value:.4g}"]
+    return options
+
+
+def uncertainty(runner, count):
+    """Mean, standard deviation, P(> 2 mm); beside it a finite-difference linearisation."""
+    drawn = list(samples(count))
+    middle = {n: (np.sqrt(a * b) if i < 4 else (a + b) / 2)
+              for i, (n, (a, b)) in enumerate(RANGES.items())}
+    cases = {f"sample {i}": options_of(values) for i, values in enumerate(drawn)}
+    cases["middle"] = options_of(middle)
+    for i, (name, (low, high)) in enumerate(RANGES.items()):
+        step = (high / low) ** 0.1 if i < 4 else (high - low) * 0.1
+        cases[name] = options_of({**middle, name: middle[name] * step if i < 4 else middle[name] + step})
+    runs = runner.all(cases)
+    measures = {"STN |shift|": lambda r: np.linalg.norm(r.shift("STN_right")),
+                "D skull": lambda r: r.mean_retraction("skull"),
+                "D tissue": lambda r: r.mean_retraction("tissue"),
+                "tip off target": lambda r: np.linalg.norm(
+                    np.subtract(r.electrode("right")["tip_mm"], r.electrode("right")["target_mm"]))}
+    good = [runs[f"sample {i}"] for i in range(count) if runs[f"sample {i}"].converged]
+    rows = [["measure", "samples", "mean mm", "sd mm", "P(> 2 mm)", "linearised sd mm"]]
+    for name, measure in measures.items():
+        values = np.array([measure(r) for r in good])
+        # A tenth of the range was one step; an even range has a standard deviation of range/sqrt(12).
+        slopes = [(measure(runs[n]) - measure(runs["middle"])) / 0.1 for n in RANGES
+                  if runs[n].converged]
+        rows.append([name, f"{len(good)} of {count}", number(values.mean()), number(values.std(ddof=1)),
+                     number((np.abs(values) > 2.0).mean(), 2),
+                     number(np.sqrt(np.sum(np.square(slopes)) / 12.0))])
+    return rows, runs
+
+
+def clinic(runner):
+    """Rows of later patient series beside the default preset."""
+    runs = runner.all({
+        **{f"{v} mL": both(v) for v in (18, 21, 38, 62)},
+        "posture": ["--no-devices", "--imaging-elevation", "0", "--elevation", "15", "--right", "0mL",
+                    "--left", "0mL"],
+    })
+    rows = [["observable", "series", "air mL", "simulated", "within"]]
+
+    def row(what, series, run, value, low, high):
+        if not runs[run].converged:
+            rows.append([what, series, run, headline(runs[run])[0], ""])
+            return
+        found = value(runs[run])
+        air = number(runs[run].air(), 0) if run != "posture" else "0"
+        rows.append([what, series, air, number(found, 2), "yes" if low <= found <= high else "no"])
+
+    def recovery(run, axis):
+        moved = run.shift("STN_right", "9") - run.shift("STN_right")
+        return abs(float(moved[axis]))
+
+    row("tip against skull, surgery to 6 months, upwards", "1.0 ± 0.8 (0.1 to 4.0) at 0 to 76 mL", "38 mL",
+        lambda r: r.mean_retraction("skull", "D_since_end_of_surgery"), 0.1, 4.0)
+    row("the same against tissue", "none reported", "38 mL",
+        lambda r: r.mean_retraction("tissue", "D_since_end_of_surgery"), np.nan, np.nan)
+    row("front to back at the STN, surgery to recovery", "1.0 ± 0.8 (to 5.2)", "38 mL",
+        lambda r: recovery(r, 1), 0.2, 5.2)
+    row("sideways at the STN", "0.6 ± 0.5", "38 mL", lambda r: recovery(r, 0), 0.1, 1.1)
+    bow = lambda r: float(np.mean([r.electrode(s)["bow_mm"] for s in r.sides()]))
+    row("bow of the lead", "2.8 ± 1.4 at 21 mL", "21 mL", bow, 1.4, 4.2)
+    row("bow of the lead", "2.4 ± 0.3 at 9 mL per lead", "18 mL", bow, 2.1, 2.7)
+    row("mid-commissural point, backwards", "1.27 ± 0.7", "21 mL", lambda r: -r.shift("MCP")[1], 0.57, 1.97)
+    row("mid-commissural point, downwards", "0.11 ± 0.43", "21 mL", lambda r: -r.shift("MCP")[2], -0.32,
+        0.54)
+    row("mid-commissural point, sideways", "0.02 ± 0.39", "21 mL", lambda r: r.shift("MCP")[0], -0.37,
+        0.41)
+    row("AC, one large symmetric case", "3.53", "62 mL", lambda r: np.linalg.norm(r.shift("AC")), 2.5, 4.5)
+    row("PC, the same case", "1.79", "62 mL", lambda r: np.linalg.norm(r.shift("PC")), 0.8, 2.8)
+    row("frontal pole", "2.2 mean", "21 mL", lambda r: max(
+        np.linalg.norm(r.shift(f"frontal_pole_{s}")) for s in ("left", "right")), 1.2, 3.2)
+    row("target, turn of the head by 15 degrees alone", "0.5 to 0.8", "posture",
+        lambda r: np.linalg.norm(r.shift("STN_right", "0b")), 0.5, 0.8)
+    return rows, runs

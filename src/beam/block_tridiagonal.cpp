@@ -56,6 +56,17 @@ void BlockTridiagonal::fix(Index dof) {
   if (i + 1 < blocks()) lower(i).col(k).setZero();
 }
 
+void BlockTridiagonal::fix_spin(Index i, const Vec3& axis) {
+  Eigen::Matrix<double, 6, 1> held = Eigen::Matrix<double, 6, 1>::Zero();
+  held.tail<3>() = axis;
+  const Mat6 project = Mat6::Identity() - held * held.transpose();
+  Mat6& block = diagonal(i);
+  const double along = held.dot(block * held), kept = along > 0.0 ? along : 1.0;
+  block = (project * block * project + kept * held * held.transpose()).eval();
+  if (i > 0) lower(i - 1) = (project * lower(i - 1)).eval();
+  if (i + 1 < blocks()) lower(i) = (lower(i) * project).eval();
+}
+
 Eigen::VectorXd BlockTridiagonal::multiply(const Eigen::VectorXd& x) const {
   Eigen::VectorXd y(x.size());
   for (Index i = 0; i < blocks(); ++i) y.segment<6>(6 * i) = diagonal(i) * x.segment<6>(6 * i);

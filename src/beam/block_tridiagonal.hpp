@@ -32,6 +32,8 @@ class BlockTridiagonal {
 
   // Takes row and column `dof` out: zeros, and its own diagonal entry (or 1) kept.
   void fix(Index dof);
+  // The same for the spin of node i about `axis` (unit): 5 of its dofs stay, in no coordinate's favour.
+  void fix_spin(Index i, const Vec3& axis);
 
   Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;
   Eigen::VectorXd diagonal_entries() const;

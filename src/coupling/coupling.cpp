@@ -117,7 +117,7 @@ Eigen::VectorXd Coupling::device_gradient(const CouplingRow& row,
   g.segment<12>(6 * row.place.element) =
       -position_derivative(device.beam, motions[row.device].beam, row.place).transpose() *
       row.direction;
-  hold(row.device, g);
+  hold(row.device, motions[row.device].beam, g);
   return g;
 }
 
@@ -136,12 +136,22 @@ void Coupling::add_forces(const std::vector<CouplingRow>& rows,
   }
 }
 
-void Coupling::hold(std::size_t d, Eigen::VectorXd& v) const {
+// The spin of a hinged anchor is held about the tangent it has now. A round wire turned about itself
+// is the same wire, so that this hold carries nothing; one about an axis fixed in space would hold
+// part of the slope, and let go of it only as the whole wire spins.
+void Coupling::hold(std::size_t d, const BeamState& state, Eigen::VectorXd& v) const {
   for (Index dof : m_held[d]) v[dof] = 0.0;
+  if (!m_devices[d].is_hinged()) return;
+  const Index node = m_devices[d].anchor_node();
+  const Vec3 axis = state.R[std::size_t(node)].col(0);
+  v.segment<3>(6 * node + 3) -= axis.dot(v.segment<3>(6 * node + 3)) * axis;
 }
 
-void Coupling::hold(std::size_t d, BlockTridiagonal& K) const {
+void Coupling::hold(std::size_t d, const BeamState& state, BlockTridiagonal& K) const {
   for (Index dof : m_held[d]) K.fix(dof);
+  if (!m_devices[d].is_hinged()) return;
+  const Index node = m_devices[d].anchor_node();
+  K.fix_spin(node, state.R[std::size_t(node)].col(0));
 }
 
 }  // namespace brainshift

@@ -59,9 +59,9 @@ class Coupling {
   Eigen::VectorXd device_gradient(const CouplingRow& row,
                                   const std::vector<DeviceMotion>& motions) const;
 
-  // Takes the held dofs out of a vector on device d.
-  void hold(std::size_t d, Eigen::VectorXd& v) const;
-  void hold(std::size_t d, BlockTridiagonal& K) const;
+  // Takes what is held of device d out of a vector, or a matrix, on its dofs.
+  void hold(std::size_t d, const BeamState& state, Eigen::VectorXd& v) const;
+  void hold(std::size_t d, const BeamState& state, BlockTridiagonal& K) const;
 
  private:
   void add_anchor_rows(std::size_t d, const BeamState& state, std::vector<CouplingRow>& rows) const;

@@ -16,13 +16,18 @@ std::vector<Index> InsertedDevice::held_dofs() const {
     const bool here = i == anchor;
     for (int k = 0; k < 6; ++k) {
       const bool shift = k < 3;
-      // Nothing but its anchor keeps a round wire from spinning about itself (k = 3); with slack,
-      // rows of the coupling hold its place.
-      const bool held = shift ? hold.slack == 0.0 : hold.clamped || k == 3;
+      // With slack, rows of the coupling hold its place.
+      const bool held = shift ? hold.slack == 0.0 : hold.clamped;
       if (rigid || (here && held)) dofs.push_back(6 * i + k);
     }
   }
   return dofs;
+}
+
+bool InsertedDevice::is_hinged() const {
+  const Index anchor = anchor_node();
+  if (anchor < 0 || hold.clamped) return false;
+  return beam.device().arcs()[anchor] < hold.rigid_from - 1e-9 * beam.device().length();
 }
 
 Index InsertedDevice::anchor_node() const {

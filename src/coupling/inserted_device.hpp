@@ -33,6 +33,9 @@ struct InsertedDevice {
 
   // Dofs (6 per node) that the hold takes away.
   std::vector<Index> held_dofs() const;
+  // Its anchor lets the wire turn, save about its own tangent: nothing else keeps a round wire from
+  // spinning about itself.
+  bool is_hinged() const;
   Index anchor_node() const;   // nearest to the anchor; -1 without one
 };
 

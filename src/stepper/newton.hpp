@@ -87,6 +87,10 @@ class Newton {
   // Step of tissue and devices through their rows; adds the rows' force to `pushed`.
   void couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step& step,
               Eigen::VectorXd& pushed);
+  struct Coupled;
+  void add_devices(Coupled& problem) const;
+  bool solve_rows(const Coupled& problem, const DeviceVectors& loads, Step& step);
+  void proximal_steps(const Coupled& problem, Step& step);
   void predict(Step& step) const;
   void refresh_devices();
   void move_devices(const Step& step, double part, MechanicalState& next) const;
@@ -116,6 +120,7 @@ class Newton {
   DeviceVectors m_device_load;          // -gradient + offset, held dofs 0; no rows
   std::vector<CouplingRow> m_couplings;
   std::vector<BlockTridiagonalFactor> m_device_factors;
+  DeviceVectors m_proximal;             // diagonal added to the tangents in them
   std::vector<char> m_active;           // per contact row
   std::vector<Mat3> m_free;             // per block: projection on what its fixed rows leave free
   std::vector<RankOne> m_terms;

@@ -59,16 +59,18 @@ void Newton::refresh_devices() {
     beam.tangent(m_state.devices[d].beam, gradient, unused);
     m_device_load.push_back(m_offset.devices[d] - gradient);
     if (m_euler) m_euler->add_force(d, m_state.devices[d].beam, m_device_load.back());
-    m_coupling.hold(d, m_device_load.back());
+    m_coupling.hold(d, m_state.devices[d].beam, m_device_load.back());
   }
   m_couplings = m_coupling.rows(m_state.u, m_state.devices);
 }
 
 // Tangents of the devices, with a proximal term: a wire that only its anchor holds may turn about it
-// freely until the rows are counted in. The term is far below the stiffness of tissue, or Newton
-// would crawl, and not too far below the device's own, or rounding would drown what it divides.
+// freely until the rows are counted in, and a device under thrust is stable only in its tissue. The
+// term is below the stiffness of tissue, so that proximal_steps() are few, and not too far below the
+// device's own, or rounding would drown what it divides.
 bool Newton::factorise_devices() {
   m_device_factors.resize(m_coupling.devices().size());
+  m_proximal = no_offset().devices;
   for (std::size_t d = 0; d < m_device_factors.size(); ++d) {
     const Beam& beam = m_coupling.devices()[d].beam;
     const double size = beam.device().length() / double(beam.element_count());
@@ -83,11 +85,12 @@ bool Newton::factorise_devices() {
       BlockTridiagonal K(beam.node_count());
       beam.tangent(m_state.devices[d].beam, gradient, K);
       for (Index i = 0; i < beam.node_count(); ++i) {
-        K.diagonal(i).diagonal().head<3>().array() += shift;
-        K.diagonal(i).diagonal().tail<3>().array() += shift * size * size;
+        m_proximal[d].segment<3>(6 * i).setConstant(shift);
+        m_proximal[d].segment<3>(6 * i + 3).setConstant(shift * size * size);
+        K.diagonal(i).diagonal() += m_proximal[d].segment<6>(6 * i);
       }
       if (m_euler) m_euler->add_tangent(d, K);
-      m_coupling.hold(d, K);
+      m_coupling.hold(d, m_state.devices[d].beam, K);
       if (m_device_factors[d].factorise(K) && m_device_factors[d].positive()) break;
       if (attempt == 30) return false;
       shift *= 10.0;
@@ -96,58 +99,114 @@ bool Newton::factorise_devices() {
   return true;
 }
 
+// The linearised problem of tissue, devices and rows, docs/theory.md (18).
+struct Newton::Coupled {
+  Eigen::MatrixXd Z;                 // A^-1 C: motions of the tissue by its rows, one per column
+  std::vector<Eigen::MatrixXd> D, Y; // per device: gradients of the rows, B^-1 D
+  Eigen::MatrixXd W;
+  Eigen::VectorXd q;                 // without the devices' own steps
+  Eigen::VectorXd lower, upper;
+  Eigen::MatrixXd C;
+};
+
+void Newton::add_devices(Coupled& problem) const {
+  for (std::size_t d = 0; d < m_device_load.size(); ++d) {
+    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(m_device_load[d].size(), problem.q.size());
+    for (Eigen::Index r = 0; r < problem.q.size(); ++r) {
+      const CouplingRow& row = m_couplings[std::size_t(r)];
+      if (row.device == d) D.col(r) = m_coupling.device_gradient(row, m_state.devices);
+    }
+    Eigen::MatrixXd Y = D;
+    m_device_factors[d].solve(Y);
+    problem.W += D.transpose() * Y;
+    problem.D.push_back(std::move(D));
+    problem.Y.push_back(std::move(Y));
+  }
+}
+
+// Multipliers, and the steps of the devices under `loads`; false: there are none.
+bool Newton::solve_rows(const Coupled& problem, const DeviceVectors& loads, Step& step) {
+  step.dq = loads;
+  Eigen::VectorXd q = problem.q;
+  for (std::size_t d = 0; d < loads.size(); ++d) {
+    m_device_factors[d].solve(step.dq[d]);
+    q += problem.D[d].transpose() * step.dq[d];
+  }
+  step.coupling.resize(q.size());
+  if (q.size() == 0) return true;
+  Eigen::MatrixXd W = problem.W;
+  Eigen::VectorXd lower = problem.lower, upper = problem.upper;
+  take_out_held_rows(problem.C, m_cache.stiffness.mean_diagonal(), W, q, lower, upper);
+  const McpSolution found = solve_mcp(W, q, lower, upper);
+  m_report.coupling_rank = found.report.rank;
+  m_report.coupling_unique = found.report.unique;
+  if (found.report.status != McpStatus::solved) return false;
+  step.coupling = found.z;
+  for (std::size_t d = 0; d < loads.size(); ++d) step.dq[d] += problem.Y[d] * found.z;
+  return true;
+}
+
+// Takes the proximal term P out of the step again: (B + P) dq' = load + P dq + D multiplier, from dq
+// to dq', until they are the same (Rockafellar 1976). It contracts where the tangents are positive on
+// the motions the rows leave; where it does not, the step with the term stands. Nothing here touches
+// the tissue, so that all of it costs less than one iteration of Newton's method.
+void Newton::proximal_steps(const Coupled& problem, Step& step) {
+  constexpr int most = 30;
+  constexpr double enough = 1e-7;  // of the first change
+  const Step first = step;
+  double before = std::numeric_limits<double>::infinity(), start = 0.0;
+  for (int i = 0; i < most; ++i) {
+    DeviceVectors loads = m_device_load;
+    for (std::size_t d = 0; d < loads.size(); ++d) loads[d] += m_proximal[d].cwiseProduct(step.dq[d]);
+    Step next = step;
+    double change = 0.0;
+    const bool solved = solve_rows(problem, loads, next);
+    for (std::size_t d = 0; d < loads.size(); ++d) {
+      const Eigen::VectorXd by = next.dq[d] - step.dq[d];
+      change += by.dot(m_proximal[d].cwiseProduct(by));
+    }
+    if (i == 0) start = change;
+    if (!solved || !(change <= before)) {
+      if (change > enough * enough * start) step = first;
+      return;
+    }
+    step = std::move(next);
+    if (change <= enough * enough * start) return;
+    before = change;
+  }
+}
+
 // W multiplier + (gap + rows . free step) = w,  W = C A^-1 C^T + D B^-1 D^T.
 void Newton::couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step& step,
                     Eigen::VectorXd& pushed) {
   const auto count = Eigen::Index(m_couplings.size());
   Eigen::MatrixXd forces(rhs.size(), 1 + count);
   forces.col(0) = rhs;
+  Coupled problem;
+  problem.q.resize(count);
+  problem.lower.resize(count);
+  problem.upper.resize(count);
   for (Eigen::Index r = 0; r < count; ++r) {
-    forces.col(1 + r) =
-        m_coupling.tissue_gradient(m_couplings[std::size_t(r)], m_eq.blocks());
+    const CouplingRow& row = m_couplings[std::size_t(r)];
+    forces.col(1 + r) = m_coupling.tissue_gradient(row, m_eq.blocks());
+    problem.q[r] = row.gap;
+    problem.lower[r] = row.lower;
+    problem.upper[r] = row.upper;
   }
   const Eigen::MatrixXd moved = solve_tissue(reduction, forces);
   const Eigen::VectorXd free_dx = moved.col(0) + reduction.particular();
-  const auto C = forces.rightCols(count);
-  const auto Z = moved.rightCols(count);
-  Eigen::MatrixXd W = C.transpose() * Z;
-  Eigen::VectorXd q = C.transpose() * free_dx;
-  std::vector<Eigen::MatrixXd> D, Y;
-  DeviceVectors free_dq;
-  for (std::size_t d = 0; d < m_device_load.size(); ++d) {
-    D.emplace_back(Eigen::MatrixXd::Zero(m_device_load[d].size(), count));
-    for (Eigen::Index r = 0; r < count; ++r) {
-      const CouplingRow& row = m_couplings[std::size_t(r)];
-      if (row.device == d) D.back().col(r) = m_coupling.device_gradient(row, m_state.devices);
-    }
-    Y.push_back(D.back());
-    m_device_factors[d].solve(Y.back());
-    Eigen::MatrixXd free = m_device_load[d];
-    m_device_factors[d].solve(free);
-    free_dq.emplace_back(free.col(0));
-    W += D.back().transpose() * Y.back();
-    q += D.back().transpose() * free_dq.back();
+  problem.C = forces.rightCols(count);
+  problem.Z = moved.rightCols(count);
+  problem.W = problem.C.transpose() * problem.Z;
+  problem.q += problem.C.transpose() * free_dx;
+  add_devices(problem);
+  if (!solve_rows(problem, m_device_load, step)) {
+    step.coupling.setConstant(std::nan(""));
+  } else if (!m_definite) {
+    proximal_steps(problem, step);
   }
-  Eigen::VectorXd lower(count), upper(count);
-  for (Eigen::Index r = 0; r < count; ++r) {
-    q[r] += m_couplings[std::size_t(r)].gap;
-    upper[r] = m_couplings[std::size_t(r)].upper;
-    lower[r] = m_couplings[std::size_t(r)].lower;
-  }
-  take_out_held_rows(C, m_cache.stiffness.mean_diagonal(), W, q, lower, upper);
-  step.coupling.resize(count);
-  if (count > 0) {
-    const McpSolution found = solve_mcp(W, q, lower, upper);
-    step.coupling = found.z;
-    m_report.coupling_rank = found.report.rank;
-    m_report.coupling_unique = found.report.unique;
-    if (found.report.status != McpStatus::solved) step.coupling.setConstant(std::nan(""));
-  }
-  step.dx = free_dx + Z * step.coupling;
-  pushed += C * step.coupling;
-  for (std::size_t d = 0; d < free_dq.size(); ++d) {
-    step.dq.push_back(free_dq[d] + Y[d] * step.coupling);
-  }
+  step.dx = free_dx + problem.Z * step.coupling;
+  pushed += problem.C * step.coupling;
 }
 
 // First-order fall of the merit E + sum bound |slip| + weight * sum |open tie|.

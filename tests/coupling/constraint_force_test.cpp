@@ -97,9 +97,16 @@ Linearised linearise(const Scene& scene, const Stepper& stepper, double wrong = 
     row.normal.cwiseAbs().maxCoeff(&axis);
     fix(l.matrix, l.right, 3 * row.block + axis);
   }
-  for (const Index dof : snapshot->devices.front().held_dofs()) {
-    fix(l.matrix, l.right, l.tissue + dof);
-  }
+  const InsertedDevice& device = snapshot->devices.front();
+  for (const Index dof : device.held_dofs()) fix(l.matrix, l.right, l.tissue + dof);
+  const Index anchor = device.anchor_node();  // hinged: no spin about the tangent there
+  LongVector spin = LongVector::Zero(l.right.size());
+  spin.segment<3>(l.tissue + 6 * anchor + 3) =
+      device.motion.beam.R[std::size_t(anchor)].col(0).cast<long double>();
+  l.right -= spin * spin.dot(l.right);
+  l.matrix -= spin * (spin.transpose() * l.matrix).eval();
+  l.matrix -= (l.matrix * spin).eval() * spin.transpose();
+  l.matrix += spin * spin.transpose();
   return l;
 }
 

@@ -38,7 +38,7 @@ def markdown(table):
 
 def write_page(path, done, long):
     parts = ["# Validation\n", f"Written by `bench/validation/run {'--long' if long else '--short'} "
-             "--write-docs`. What the figures mean is said in [validation-notes](validation-notes.md).\n"]
+             "--write-docs`.\n"]
     for name, (table, _) in done.items():
         title, text = TEXT[name]
         parts += [f"\n## {title}\n", text + "\n"]

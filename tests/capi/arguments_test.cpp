@@ -109,7 +109,7 @@ TEST_F(Arguments, ErrorsOfTheLibraryArriveWithTheirCulprit) {
   again.wall_triangle_count -= 1;
   refused(brs_scene_add_compartment(w.scene, &again, nullptr), BRS_ERROR_SURFACE_NOT_CLOSED,
           "'open'");
-  refused(brs_stepper_set_csf(w.stepper, 0, BRS_CSF_LOST_VOLUME, -1.0), BRS_ERROR_FLUID_VOLUME,
+  refused(brs_stepper_set_csf(w.stepper, 0, BRS_CSF_AIR_VOLUME, -1.0), BRS_ERROR_FLUID_VOLUME,
           "box");
   refused(brs_stepper_set_csf(w.stepper, 5, BRS_CSF_FULL, 0.0), BRS_ERROR_INDEX_OUT_OF_RANGE, "5");
 }

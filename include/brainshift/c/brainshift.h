@@ -292,7 +292,7 @@ enum {
   BRS_CSF_FULL = 0,        /* closed, its fluid restored; no amount */
   BRS_CSF_OPEN = 1,        /* air may enter, nothing is lost yet; no amount */
   BRS_CSF_LEVEL = 2,       /* open; amount: the level, mm along -gravity from the origin */
-  BRS_CSF_LOST_VOLUME = 3, /* open; amount: fluid lost since the reference, mm^3 >= 0 */
+  BRS_CSF_LOST_VOLUME = 3, /* open; amount: fluid lost since the reference, mm^3 */
   BRS_CSF_AIR_VOLUME = 4   /* open; amount: air inside, mm^3 >= 0 */
 };
 

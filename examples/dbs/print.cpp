@@ -102,7 +102,7 @@ void print_electrodes(const std::vector<StageResult>& stages) {
   if (!any) return;
   std::printf("\nElectrodes, in the frame of the skull; mm and mN. D: motion of the tip along its "
               "trajectory, positive\ntowards the burr hole, against the skull and against the tissue "
-              "that was at the tip.\n\n");
+              "that was at the tip. Force\nat the skull (of the frame while the cannula is in), and of the strongest tie to tissue.\n\n");
   std::printf("%-27s| tip from target  |track| bow: size, from |%-15s|%-14s| force, mN\n", "",
               " D since cannula", " D since the");
   std::printf("%-27s|%6s%6s%6s|motn.| tip, towards      |%-15s|%-14s|  skull     tie\n",

@@ -13,7 +13,9 @@ class Run:
     """What one run of dbs left behind; `stages` is empty where it ended without a balance."""
 
     def __init__(self, folder):
-        self.message = (folder / "message").read_text().strip()
+        code, *message = (folder / "message").read_text().strip().split("\n")
+        self.message = " ".join(message)
+        self.refused = code not in ("0", "2")   # 2: a stage without a balance
         table = folder / "stages.json"
         self.data = json.loads(table.read_text()) if table.is_file() else {"stages": []}
         stages = self.data["stages"]
@@ -69,7 +71,7 @@ class Runner:
             result = subprocess.run([self.program, "--quiet", "--no-vtk", *head,
                                      "--out", str(folder), *options],
                                     capture_output=True, text=True, check=False)
-            (folder / "message").write_text(result.stderr.strip() + "\n")
+            (folder / "message").write_text(f"{result.returncode}\n{result.stderr.strip()}\n")
         self.done += 1
         print(f"\r  {self.done} runs ", end="", file=sys.stderr, flush=True)
         return Run(folder)

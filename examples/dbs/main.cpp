@@ -29,7 +29,7 @@ int run(const dbs::Options& options) {
   std::vector<StageResult> stages;
   Series brain, electrodes;
   if (options.files) prepare_folder(options.out);
-  print_table_header(options);
+  print_table_header();
   for (const Stage& stage : procedure.plan()) {
     stages.push_back(procedure.run(stage));
     const StageResult& result = stages.back();

@@ -35,6 +35,7 @@ TissueMeasures::TissueMeasures(const Head& head, const Stepper& stepper)
     }
   }
   prepare_landmarks();
+  m_landmarks_before = Points::Zero(m_landmarks.rows(), 3);
 }
 
 void TissueMeasures::prepare_landmarks() {
@@ -54,6 +55,7 @@ void TissueMeasures::prepare_landmarks() {
 
 void TissueMeasures::set_reference(const Stepper& stepper) {
   m_before = stepper.displacement();
+  m_landmarks_before = stepper.displacement_at(m_landmarks).values;
   m_volume_before = tissue_volume(stepper);
 }
 
@@ -71,13 +73,10 @@ void TissueMeasures::fill(const Stepper& stepper, StageResult& result) const {
   for (Index node : m_head.falx) {
     result.midline_shift += u(node, 0) / double(m_head.falx.size());
   }
-  const Location where = m_head.brain.locate(m_landmarks);
+  const Points now = stepper.displacement_at(m_landmarks).values;
   for (std::size_t i = 0; i < m_names.size(); ++i) {
-    Vec3& moved = result.shifts[m_names[i]] = Vec3::Zero();
-    for (int a = 0; a < 4; ++a) {
-      const Index node = m_head.brain.tets()(where.tet[i], a);
-      moved += where.weights(Eigen::Index(i), a) * u.row(node).transpose();
-    }
+    const auto row = Eigen::Index(i);
+    result.shifts[m_names[i]] = (now.row(row) - m_landmarks_before.row(row)).transpose();
   }
 }
 

@@ -55,6 +55,7 @@ class TissueMeasures {
   double m_volume_before;
   Indices m_outer[2];
   std::vector<std::string> m_names;
+  Points m_landmarks_before;   // their displacement at stage 0
   Points m_landmarks;   // moved onto the nearest node where outside the mesh
 };
 

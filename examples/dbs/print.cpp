@@ -23,14 +23,11 @@ void print_lead(const StageResult& stage, int side) {
   const LeadResult& r = *stage.lead[side];
   const DeviceState& d = r.state;
   const Vec3 tip = d.nodes.row(0).transpose(), off = tip - r.trajectory.target;
-  const auto show = [](const std::optional<Retraction>& x, bool tissue) {
-    static thread_local char text[4][16];
-    static thread_local int next = 0;
-    char* buffer = text[next++ % 4];
-    const double value = x ? (tissue ? x->tissue : x->skull) : std::nan("");
-    if (std::isnan(value)) return "      -";
-    std::snprintf(buffer, 16, "%7.3f", value);
-    return static_cast<const char*>(buffer);
+  const auto show = [](const std::optional<Retraction>& x, double Retraction::*frame) {
+    if (!x || std::isnan(*x.*frame)) return std::string("      -");
+    char text[32];
+    std::snprintf(text, sizeof text, "%7.3f", *x.*frame);
+    return std::string(text);
   };
   double track = 0.0;
   for (Eigen::Index p = 0; p < d.path_forces.rows(); ++p) {
@@ -41,9 +38,10 @@ void print_lead(const StageResult& stage, int side) {
               stage.label.c_str(), name_of(side), d.name.c_str(), off.x(), off.y(), off.z(),
               r.largest_track_motion, d.bow,
               bent ? d.bow_arc : 0.0, bent ? direction_word(d.bow_direction).c_str() : "-",
-              show(r.since_cannula_left, false), show(r.since_cannula_left, true),
-              show(r.since_surgery, false), show(r.since_surgery, true), d.anchor_force.norm(),
-              track);
+              show(r.since_cannula_left, &Retraction::skull).c_str(),
+              show(r.since_cannula_left, &Retraction::tissue).c_str(),
+              show(r.since_surgery, &Retraction::skull).c_str(),
+              show(r.since_surgery, &Retraction::tissue).c_str(), d.anchor_force.norm(), track);
 }
 
 }  // namespace
@@ -70,7 +68,7 @@ void print_head(const Head& head, const Options& o) {
   std::printf("\n");
 }
 
-void print_table_header(const Options&) {
+void print_table_header() {
   std::printf("%-22s| level mm  | air mL    | -dV  | surface mm| mid   |%-17s|%-17s|%-17s|\n",
               "", " AC, PC, poles mm", " STN left mm", " STN right mm");
   std::printf("%-22s|%5s%6s|%5s%6s| mL   |%5s%6s| mm    |%5s%4s%4s%4s|%5s%6s%6s|%5s%6s%6s|"
@@ -102,7 +100,8 @@ void print_electrodes(const std::vector<StageResult>& stages) {
   if (!any) return;
   std::printf("\nElectrodes, in the frame of the skull; mm and mN. D: motion of the tip along its "
               "trajectory, positive\ntowards the burr hole, against the skull and against the tissue "
-              "that was at the tip. Force\nat the skull (of the frame while the cannula is in), and of the strongest tie to tissue.\n\n");
+              "that was at the tip. Force\nat the skull (of the frame while the cannula is in), and of "
+              "the strongest tie to tissue.\n\n");
   std::printf("%-27s| tip from target  |track| bow: size, from |%-15s|%-14s| force, mN\n", "",
               " D since cannula", " D since the");
   std::printf("%-27s|%6s%6s%6s|motn.| tip, towards      |%-15s|%-14s|  skull     tie\n",

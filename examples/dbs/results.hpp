@@ -10,7 +10,7 @@
 namespace dbs {
 
 void print_head(const Head& head, const Options& options);
-void print_table_header(const Options& options);
+void print_table_header();
 void print_stage(const StageResult& stage);
 // Tips, bows, forces, and retraction of each electrode from stage to stage.
 void print_electrodes(const std::vector<StageResult>& stages);

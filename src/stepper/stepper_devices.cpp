@@ -119,7 +119,6 @@ DeviceState Stepper::device(DeviceId id) const {
     s.path.row(p) = path_position(mesh, u, d.path[std::size_t(p)]).transpose();
   }
   const Coupling coupling(mesh, m_impl->m_state.devices, u);
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(d.beam.dof_count());
   for (const CouplingRow& row : coupling.rows(u, coupling.motions())) {
     if (coupling.devices()[row.device].id != id) continue;
     if (row.bilateral()) s.largest_tie_gap = std::max(s.largest_tie_gap, std::abs(row.gap));

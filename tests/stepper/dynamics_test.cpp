@@ -186,24 +186,7 @@ TEST(Dynamics, AFreeBodyFallsAndKeepsItsMomentum) {
   EXPECT_LE((fallen - expected).norm(), 1e-7 * expected.norm());
 }
 
-// A soft block in fluid on elastic feet, against a wall: contact, levels, supports.
-Scene busy_scene() {
-  const Mesh mesh = test::make_mesh(test::make_box({30, 30, 30}, 2, 2, 2));
-  Scene scene{mesh,
-              {{0, Material(Law::corotational, 6.0, 0.45, test::tissue_density)}},
-              Vec3(0, 0, -standard_gravity),
-              Csf(test::fluid_density, FluidModel::separate,
-                  {test::make_compartment("all", test::box_wall({-3, -3, -3}, {33, 33, 34}),
-                                          test::all_faces(mesh))}),
-              {}};
-  const auto wall = test::box_wall({-0.5, -0.5, -0.2}, {30.5, 30.5, 30.5});
-  scene.constraints.obstacle("skull", test::surface_nodes(mesh),
-                             Surface::cavity(wall.points, wall.triangles));
-  scene.constraints.support("stem",
-                            test::nodes_where(mesh, [](const Vec3& x) { return x.z() == 0.0; }),
-                            Eigen::VectorXd::Constant(1, 3.0));
-  return scene;
-}
+Scene busy_scene() { return test::busy_scene(2, 3.0); }
 
 TEST(Dynamics, ComesToRestInTheStaticStateWhateverTheStep) {
   Stepper rest(busy_scene());
@@ -374,14 +357,7 @@ TEST(Dynamics, TiedBodiesShareTheirMomentum) {
   scene.mesh =
       test::make_mesh(test::joined(test::make_box({20, 20, 20}, 2, 2, 2),
                                    test::moved(test::make_box({20, 20, 20}, 2, 2, 2), {20, 0, 0})));
-  Indices left, right;
-  for (Index i = 0; i < 27; ++i) {
-    for (Index j = 27; j < 54; ++j) {
-      if ((scene.mesh.nodes().row(i) - scene.mesh.nodes().row(j)).norm() > 1e-12) continue;
-      left.push_back(i);
-      right.push_back(j);
-    }
-  }
+  const auto [left, right] = test::seam(scene.mesh, 27);
   scene.constraints.tie("seam", left, right);
   Stepper stepper(scene);
   stepper.set_damping({0.0, 1e-3});

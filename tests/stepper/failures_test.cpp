@@ -69,14 +69,7 @@ TEST(Failures, ATieHoldsTheSecondBody) {
   scene.constraints.fix("base", test::nodes_where(scene.mesh, [](const Vec3& x) {
                           return x.z() == 0.0 && x.x() < 15.0;
                         }));
-  Indices left, right;
-  for (Index i = 0; i < 27; ++i) {
-    for (Index j = 27; j < 54; ++j) {
-      if ((scene.mesh.nodes().row(i) - scene.mesh.nodes().row(j)).norm() > 1e-12) continue;
-      left.push_back(i);
-      right.push_back(j);
-    }
-  }
+  const auto [left, right] = test::seam(scene.mesh, 27);
   const ConstraintId tie = scene.constraints.tie("seam", left, right);
   Stepper stepper(scene);
   EXPECT_TRUE(stepper.solve_static().converged());

@@ -14,24 +14,7 @@ namespace {
 using test::expect_error;
 using test::same_bits;
 
-// A soft block on a floor in a box of fluid.
-Scene busy_scene() {
-  const Mesh mesh = test::make_mesh(test::make_box({30, 30, 30}, 3, 3, 3));
-  Scene scene{mesh,
-              {{0, Material(Law::corotational, 6.0, 0.45, test::tissue_density)}},
-              Vec3(0, 0, -standard_gravity),
-              Csf(test::fluid_density, FluidModel::separate,
-                  {test::make_compartment("all", test::box_wall({-3, -3, -3}, {33, 33, 34}),
-                                          test::all_faces(mesh))}),
-              {}};
-  const auto wall = test::box_wall({-0.5, -0.5, -0.2}, {30.5, 30.5, 30.5});
-  scene.constraints.obstacle("skull", test::surface_nodes(mesh),
-                             Surface::cavity(wall.points, wall.triangles));
-  scene.constraints.support("stem",
-                            test::nodes_where(mesh, [](const Vec3& x) { return x.z() == 0.0; }),
-                            Eigen::VectorXd::Constant(1, 0.3));
-  return scene;
-}
+Scene busy_scene() { return test::busy_scene(3, 0.3); }
 
 DeviceId insert_cannula(Stepper& stepper) {
   return stepper.insert(make_device("cannula", 40.0), {Vec3(14.3, 15.7, 9.1), Vec3::UnitZ()},

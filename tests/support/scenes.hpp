@@ -90,4 +90,36 @@ inline Vec3 mean_row(const Points& values, const Indices& rows) {
   return sum / double(rows.size());
 }
 
+// A soft block in fluid on elastic feet, in a narrow case: contact, levels, supports, every kind of
+// force at once. cells: per edge of 30 mm; feet: mN/mm per node.
+inline Scene busy_scene(int cells, double feet) {
+  const Mesh mesh = make_mesh(make_box({30, 30, 30}, cells, cells, cells));
+  Scene scene{mesh,
+              {{0, Material(Law::corotational, 6.0, 0.45, tissue_density)}},
+              Vec3(0, 0, -standard_gravity),
+              Csf(fluid_density, FluidModel::separate,
+                  {make_compartment("all", box_wall({-3, -3, -3}, {33, 33, 34}), all_faces(mesh))}),
+              {}};
+  const auto wall = box_wall({-0.5, -0.5, -0.2}, {30.5, 30.5, 30.5});
+  scene.constraints.obstacle("skull", surface_nodes(mesh),
+                             Surface::cavity(wall.points, wall.triangles));
+  scene.constraints.support("stem",
+                            nodes_where(mesh, [](const Vec3& x) { return x.z() == 0.0; }),
+                            Eigen::VectorXd::Constant(1, feet));
+  return scene;
+}
+
+// Nodes of two bodies of `count` nodes each that lie on each other, in pairs.
+inline std::pair<Indices, Indices> seam(const Mesh& mesh, Index count) {
+  std::pair<Indices, Indices> pairs;
+  for (Index i = 0; i < count; ++i) {
+    for (Index j = count; j < 2 * count; ++j) {
+      if ((mesh.nodes().row(i) - mesh.nodes().row(j)).norm() > 1e-12) continue;
+      pairs.first.push_back(i);
+      pairs.second.push_back(j);
+    }
+  }
+  return pairs;
+}
+
 }  // namespace brainshift::test

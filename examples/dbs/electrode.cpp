@@ -22,6 +22,7 @@ Electrode::Electrode(const Options& options, const Trajectory& trajectory)
   const auto fine = [](double x) { return std::isfinite(x) && x >= 0.0; };
   require(fine(options.bending), "--bending is negative or not a number");
   require(fine(options.friction), "--friction is negative or not a number");
+  require(fine(options.tip_hold), "--tip-hold is negative or not a number");
   require(fine(options.slack), "--slack is negative or not a number");
   require(fine(options.cannula_depth) && options.cannula_depth < 0.5 * trajectory.length,
           "--cannula-depth is negative or more than half of the trajectory");

@@ -107,9 +107,22 @@ void scale(const Vec3& centre, double factor, Vec3& point) {
   if (factor != 1.0) point = centre + factor * (point - centre);
 }
 
+// Moves the points of the triangles along their normals (of the triangles around them, by area).
+void inflate(const Triangles& triangles, double gap, Points& points) {
+  Points normals = Points::Zero(points.rows(), 3);
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const Vec3 a = points.row(triangles(t, 0)), b = points.row(triangles(t, 1)),
+               c = points.row(triangles(t, 2));
+    for (int k = 0; k < 3; ++k) normals.row(triangles(t, k)) += (b - a).cross(c - a).transpose();
+  }
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    if (normals.row(i).norm() > 0.0) points.row(i) += gap * normals.row(i).normalized();
+  }
+}
+
 }  // namespace
 
-Head read_head(const std::string& folder, double factor) {
+Head read_head(const std::string& folder, double factor, double gap) {
   Marks marks = read_marks(folder + "/head.json");
   const Vec3 centre = marks.landmarks.at("AC");
   io::Grid brain = io::read_vtu(folder + "/brain.vtu");
@@ -131,6 +144,7 @@ Head read_head(const std::string& folder, double factor) {
                               pick(cavity.triangles, parts, 2, false)};
   head.skull = join(walls[left], walls[right]);
   head.midsheet = pick(cavity.triangles, parts, 3, false);
+  if (gap != 0.0) inflate(head.skull, gap, head.wall_points);
   head.wall[left] = join(walls[left], head.midsheet);
   head.wall[right] = join(walls[right], pick(cavity.triangles, parts, 3, true));
   return head;

@@ -37,6 +37,7 @@ struct Head {
 
 // Reads brain.vtu, cavity.vtp, falx.vtp and head.json; throws brainshift::Error naming the file
 // and what is wrong with it.
-Head read_head(const std::string& folder, double scale = 1.0);   // of its lengths, about AC
+// `scale`: of its lengths, about AC; `gap`: mm by which the inner skull is moved outwards.
+Head read_head(const std::string& folder, double scale = 1.0, double gap = 0.0);
 
 }  // namespace dbs

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "alternatives.hpp"
 #include "brainshift/io.hpp"
 #include "results.hpp"
 
@@ -21,7 +22,7 @@ int run(const dbs::Options& options) {
   using namespace dbs;
   const auto start = std::chrono::steady_clock::now();
   // 1. The head: meshes, node sets, landmarks.
-  const Head head = read_head(options.head, options.scale);
+  const Head head = read_head(options.head, options.scale, options.gap);
   print_head(head, options);
   // 2. The scene, and a stepper that owns its state.
   Procedure procedure(head, options);
@@ -57,13 +58,36 @@ int run(const dbs::Options& options) {
   return stages.back().report.converged() ? 0 : 2;
 }
 
+// --plan: no procedure in itself, but what to choose for one.
+int plan(const dbs::Options& options) {
+  using namespace dbs;
+  const Head head = read_head(options.head, options.scale, options.gap);
+  print_head(head, options);
+  print_alternative_header();
+  double asked = -1.0;
+  const auto found = search_alternatives(head, options, [&asked](const Alternative& a) {
+    if (asked < 0.0) asked = a.mean();
+    print_alternative(a, asked);
+  });
+  const Alternative& best = best_of(found);
+  std::printf("\nbest: %s, %.2f mm nearer; for its procedure add: %s\n", best.name.c_str(),
+              asked - best.mean(), best.words.empty() ? "nothing" : best.words.c_str());
+  if (options.files) {
+    prepare_folder(options.out);
+    write_alternatives(options.out, found);
+    std::printf("results in %s: plan.json\n", options.out.c_str());
+  }
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
     dbs::Options options;
     const int code = dbs::parse(argc, argv, options);
-    return code >= 0 ? code : run(options);
+    if (code >= 0) return code;
+    return options.plan ? plan(options) : run(options);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "dbs: %s\n", e.what());
     return 1;

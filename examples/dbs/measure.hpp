@@ -19,6 +19,7 @@ struct Retraction {
 struct LeadResult {
   DeviceState state;
   Trajectory trajectory;        // as it was inserted
+  Vec3 off_target;              // mm; of the planned contact from the tissue of the target
   bool in_cannula;
   Vec3 track_motion;            // mm, mean over the track since it was made
   double largest_track_motion;  // mm, across the trajectory

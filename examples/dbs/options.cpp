@@ -52,8 +52,12 @@ std::string preset_in(int argc, char** argv) {
 
 void add_electrodes(CLI::App& app, Options& o) {
   const auto group = app.add_option_group("Electrodes");
-  group->add_option("--sides", o.sides, "that are operated on: both (right first), right, left")
+  group->add_option("--sides", o.sides, "that are operated on: both, right, left")
       ->capture_default_str()->check(CLI::IsMember({"both", "right", "left"}));
+  group->add_option("--first", o.first, "of both sides")
+      ->capture_default_str()->check(CLI::IsMember({"right", "left"}));
+  group->add_flag("--recover-between,!--one-session", o.recover_between,
+                  "the fluid comes back before the second side is operated on");
   group->add_option("--target", o.target, "landmark without its side: STN, GPi (default: the plan "
                                           "that comes with the head)");
   group->add_option("--target-right", o.target_right, "x y z, mm RAS")->expected(3);
@@ -63,6 +67,11 @@ void add_electrodes(CLI::App& app, Options& o) {
   group->add_option("--aim", o.aim, "at the planned point of the skull frame, or where that point "
                                     "of the tissue has gone")
       ->capture_default_str()->check(CLI::IsMember({"skull", "tissue"}));
+  group->add_option("--offset-right", o.offset_right, "of the aim from the target, x y z, mm RAS: to "
+                                                      "meet a shift foreseen")->expected(3);
+  group->add_option("--offset-left", o.offset_left, "the same on the left")->expected(3);
+  group->add_option("--contact", o.contact, "that is to lie at the target, from the tip; 0: the tip")
+      ->capture_default_str()->check(CLI::Range(0, 64));
   std::string names;
   for (const std::string& name : device_names()) names += (names.empty() ? "" : ", ") + name;
   group->add_option("--lead", o.lead, names)->capture_default_str();
@@ -71,6 +80,8 @@ void add_electrodes(CLI::App& app, Options& o) {
   group->add_option("--bending", o.bending, "EI of the lead, N mm^2 (default: the table's)");
   group->add_option("--friction", o.friction, "largest shear between device and tissue, kPa")
       ->capture_default_str();
+  group->add_option("--tip-hold", o.tip_hold, "friction besides, at the tip, once the cannula has "
+                                              "left, mN")->capture_default_str();
   group->add_option("--slack", o.slack, "the wire slides this far at the burr hole before the skull "
                                         "holds it, mm")->capture_default_str();
   group->add_flag("--clamped,!--hinged", o.clamped, "the wire at the burr hole");
@@ -97,6 +108,8 @@ int parse(int argc, char** argv, Options& o) {
       ->required();
   app.add_option("--scale", o.scale, "of the head's lengths, about AC")
       ->capture_default_str()->check(CLI::Range(0.1, 10.0));
+  app.add_option("--gap", o.gap, "of fluid more between brain and skull, mm")
+      ->capture_default_str()->check(CLI::Range(0.0, 20.0));
   app.add_option("--out", o.out, "folder for results")->capture_default_str();
   app.add_option("--law", o.law, "linear, corotational, st_venant_kirchhoff or stable_neo_hookean")
       ->capture_default_str();
@@ -121,11 +134,16 @@ int parse(int argc, char** argv, Options& o) {
                  "how the brainstem is held at its lower end, and the optic nerves if named")
       ->capture_default_str()
       ->check(CLI::IsMember({"elastic", "fixed", "elastic+optic", "fixed+optic"}));
+  app.add_option("--tether", o.tether, "springs between the outside of the brain and the skull, "
+                                       "kPa/mm")
+      ->capture_default_str()->check(CLI::Range(0.0, 1e3));
   add_electrodes(app, o);
   app.add_flag("--falx,!--no-falx", o.falx, "with or without the falx (hemispheres still touch)");
   app.add_flag("--skull,!--no-skull", o.skull, "with or without contact with skull and tentorium");
   app.add_flag("--balanced,!--free", o.balanced,
                "the image is in balance with gravity and full fluid, or free of load");
+  app.add_flag("--plan", o.plan, "instead of one procedure: aim, depth, slack and order of sides that "
+                                 "leave the electrodes nearest their targets");
   app.add_flag("--files,!--no-files", o.files, "write results to --out");
   app.add_flag("--vtk,!--no-vtk", o.vtk, "VTU and VTP files among them");
   app.add_option("--threads", o.threads, "of the solver; no result depends on it")

@@ -24,6 +24,7 @@ struct Options {
   std::string preset = "default";
   std::string head;
   double scale = 1.0;             // of the head's lengths, about its AC
+  double gap = 0.0;               // mm of fluid more between brain and skull
   std::string out = "out/dbs";
   std::string law = "corotational";
   double young = 6.0;             // kPa
@@ -37,21 +38,28 @@ struct Options {
   double imaging_elevation = std::numeric_limits<double>::quiet_NaN();   // NaN: the same
   std::string fluid = "communicating";
   std::string support = "elastic";
+  double tether = 0.0;            // kPa/mm, springs between the outside of the brain and the skull
   // Electrodes.
-  std::string sides = "both";     // that are operated on: both (right first), right, left
+  std::string sides = "both";     // that are operated on: both, right, left
+  std::string first = "right";    // of both
+  bool recover_between = false;   // the fluid comes back before the second side
   std::string target;             // landmark without its side (STN, GPi); empty: the head's plan
   std::vector<double> target_right, target_left;   // mm, RAS; empty: as above
   double sagittal = std::numeric_limits<double>::quiet_NaN();   // degrees; NaN: the head's plan
   double lateral = std::numeric_limits<double>::quiet_NaN();
   std::string aim = "skull";      // at the planned point of the skull frame, or of the tissue
+  std::vector<double> offset_right, offset_left;   // mm, RAS; the aim from the target; empty: none
+  int contact = 0;                // that is to lie at the target; 0: the tip
   bool devices = true;            // false: only fluid is lost
   std::string lead = "3389", test_electrode;   // of the device table; empty: the lead tests
   double bending = 0.0;           // N mm^2, EI of the lead; 0: the table's
   double friction = 0.0;          // kPa, bound of the shear between device and tissue
+  double tip_hold = 0.0;          // mN of friction besides, at the tip, once the cannula has left
   double slack = 0.0;             // mm the wire may slide at the burr hole before the skull holds it
   bool clamped = false;           // the wire's tangent is held at the burr hole too
   double cannula_depth = 0.0;     // mm the cannula ends short of the target
   bool elastic_cannula = false;   // a steel beam held at the burr hole, instead of a rigid one
+  bool plan = false;              // look for choices that leave the electrodes nearest their targets
   int threads = 1;
   bool falx = true, skull = true, balanced = true, files = true, vtk = true, quiet = false;
 };

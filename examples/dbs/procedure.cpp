@@ -26,70 +26,10 @@ Procedure::Procedure(const Head& head, const Options& options)
       m_stepper(make_stepper(head, options, m_ids)),
       m_tissue(head, m_stepper),
       m_full_level(full_level(head, m_gravity)) {
-  for (int side : {left, right}) {
-    if (options.sides != "both" && options.sides != name_of(side)) {
-      m_loss[side].amount = 0.0;
-      continue;
-    }
-    Operated& o = m_side[side];
-    o.trajectory = plan_trajectory(head, options, side);
-    if (options.devices) o.electrode.emplace(options, *o.trajectory);
-  }
+  plan_sides();
   check_losses();
   m_plan = make_plan();
   check_plan();
-}
-
-std::vector<Stage> Procedure::make_plan() const {
-  std::vector<Stage> stages{{"0", "before surgery", Action::none, right}};
-  if (imaging_elevation(m_options) != m_options.elevation) {
-    stages.push_back({"0b", "head elevated", Action::turn_head, right});
-  }
-  const auto add = [&](const char* label, int side, const char* what, Action action) {
-    stages.push_back({label, name_of(side) + std::string(", ") + what, action, side});
-  };
-  // The left side repeats the right one's stages 1 to 3 as its sixth.
-  const char* labels[2][5] = {{"6a", "6b", "6c", "7", "8"}, {"1", "2", "3", "4", "5"}};
-  for (int side : {right, left}) {
-    const bool loss = m_loss[side].amount > 0.0;
-    const bool lead = m_side[side].electrode.has_value();
-    if (loss) add(labels[side][0], side, "craniotomy", Action::lose_fluid);
-    if (lead) add(labels[side][1], side, "cannula in", Action::insert_cannula);
-    if (lead) add(labels[side][2], side, "electrode in", Action::insert_lead);
-    if (loss && m_options.late > 0.0) add(labels[side][3], side, "testing", Action::test);
-    if (lead) add(labels[side][4], side, "cannula out", Action::remove_cannula);
-  }
-  stages.push_back({"9", "CSF restored", Action::restore, right});
-  return stages;
-}
-
-// One fluid can be asked for in one way only.
-void Procedure::check_losses() const {
-  const bool both = m_loss[left].amount > 0.0 && m_loss[right].amount > 0.0;
-  const bool one_fluid = m_stepper.csf().model() == FluidModel::communicating;
-  if (both && one_fluid && m_loss[left].law != m_loss[right].law) {
-    throw Error(ErrorCode::fluid_volume,
-                "--right " + m_options.right + " and --left " + m_options.left +
-                    " are of different kinds, and the communicating fluid is one: ask for both in mL, "
-                    "mL-air or mm, or for --fluid separate");
-  }
-}
-
-void Procedure::check_plan() {
-  const auto before = m_stepper.snapshot();
-  for (const Stage& stage : m_plan) {
-    set_loads(stage);
-    m_stepper.check_settings();
-  }
-  m_stepper.restore(before);
-  for (const Operated& side : m_side) {
-    if (!side.electrode) continue;
-    const Electrode& e = *side.electrode;
-    e.lead_in_cannula(m_options.lead);
-    m_stepper.insert(e.lead(), {e.trajectory().target, e.trajectory().outward}, e.hold_of_wire(),
-                     e.track());
-  }
-  m_stepper.restore(before);
 }
 
 // Sets the fluid of a side to `part` of its loss. A communicating fluid is one: it has lost what
@@ -114,7 +54,7 @@ void Procedure::lose(int side, const Loss& loss, double part) {
 
 void Procedure::set_loads(const Stage& stage) {
   Csf& csf = m_stepper.csf();
-  if (stage.action == Action::turn_head) m_stepper.set_gravity(m_gravity);
+  if (stage.action != Action::none) m_stepper.set_gravity(m_gravity);   // the posture of surgery
   if (stage.action == Action::lose_fluid) {
     lose(stage.side, m_loss[stage.side], 1.0 - m_options.late);
   } else if (stage.action == Action::test) {
@@ -125,15 +65,20 @@ void Procedure::set_loads(const Stage& stage) {
   }
 }
 
+// Where the tissue of the target is now.
+Vec3 Procedure::place_of_goal(int side) const {
+  const Vec3& rest = m_side[side].goal_at_rest;
+  return rest + m_stepper.displacement_at(rest.transpose()).values.row(0).transpose();
+}
+
 // Aimed at the planned point of the skull frame, or at where that point of the tissue has gone.
 void Procedure::insert_cannula(int side) {
   Operated& o = m_side[side];
-  if (m_options.aim == "tissue") {
-    const Trajectory planned = *o.trajectory;
-    const PointValues moved = m_stepper.displacement_at(planned.target.transpose());
-    const Vec3 target = planned.target + moved.values.row(0).transpose();
-    o.electrode.emplace(m_options, make_trajectory(m_head, side, target,
-                                                   (planned.inner_table - target).normalized()));
+  if (m_options.aim == "tissue") {   // through the planned burr hole
+    const Vec3 point = place_of_goal(side);
+    const Vec3 outward = (o.trajectory->inner_table - point).normalized();
+    o.trajectory = aim_at(m_head, m_options, side, point, outward);
+    o.electrode.emplace(m_options, *o.trajectory);
   }
   const Electrode& e = *o.electrode;
   o.device = m_stepper.insert(e.cannula(), e.cannula_placement(), e.cannula_hold(), e.track());
@@ -156,6 +101,7 @@ void Procedure::remove_cannula(int side) {
   } else {
     m_stepper.exchange(o.device, o.electrode->lead(), o.electrode->hold_of_wire());
   }
+  m_stepper.set_friction(o.device, m_options.friction, m_options.tip_hold);
   o.in_cannula = false;
 }
 
@@ -179,8 +125,9 @@ StageResult Procedure::run(const Stage& stage) {
   if (stage.action == Action::none && result.report.converged()) {
     m_tissue.set_reference(m_stepper);
     for (int side : {left, right}) {
-      m_side[side].lost_before =
-          m_stepper.compartment(m_stepper.csf().find(name_of(side))).lost_volume;
+      Operated& o = m_side[side];
+      o.lost_before = m_stepper.compartment(m_stepper.csf().find(name_of(side))).lost_volume;
+      if (o.goal) o.goal_at_rest = tissue_at(o.goal->point);
     }
   }
   if (result.report.converged()) mark(stage);
@@ -191,6 +138,12 @@ StageResult Procedure::run(const Stage& stage) {
   }
   result.remark = remark_on(result);
   return result;
+}
+
+// The tissue that is at a point now, in the mesh as given; the point itself where there is none.
+Vec3 Procedure::tissue_at(const Vec3& point) const {
+  const PointValues rest = m_stepper.rest_points_of(point.transpose());
+  return rest.tet.front() < 0 ? point : Vec3(rest.values.row(0).transpose());
 }
 
 // Keeps where things were when later stages will ask how far they moved.
@@ -206,21 +159,21 @@ void Procedure::mark(const Stage& stage) {
   o.released.emplace(m_stepper, tip(o));
   if (!ends_surgery(stage)) return;
   for (Operated& side : m_side) {
-    if (side.device >= 0) side.closed.emplace(m_stepper, tip(side));
+    if (side.device >= 0 && !side.closed) side.closed.emplace(m_stepper, tip(side));
   }
 }
 
 bool Procedure::ends_surgery(const Stage& stage) const {
-  for (auto later = m_plan.rbegin(); later != m_plan.rend(); ++later) {
-    if (later->action == Action::remove_cannula) return later->label == stage.label;
+  for (std::size_t i = 0; i + 1 < m_plan.size(); ++i) {
+    if (m_plan[i].label == stage.label) return m_plan[i + 1].action == Action::restore;
   }
   return false;
 }
 
 LeadResult Procedure::measure_lead(int side) const {
   const Operated& o = m_side[side];
-  LeadResult r{m_stepper.device(o.device), o.electrode->trajectory(), o.in_cannula, Vec3::Zero(), 0.0,
-               {}, {}};
+  LeadResult r{m_stepper.device(o.device), *o.trajectory, Vec3::Zero(), o.in_cannula, Vec3::Zero(),
+               0.0, {}, {}};
   const Vec3& outward = r.trajectory.outward;
   for (Eigen::Index p = 0; p < o.track.rows(); ++p) {
     const Vec3 moved = (r.state.path.row(p) - o.track.row(p)).transpose();
@@ -229,6 +182,10 @@ LeadResult Procedure::measure_lead(int side) const {
         std::max(r.largest_track_motion, (moved - moved.dot(outward) * outward).norm());
   }
   const Vec3 tip = r.state.nodes.row(0).transpose();
+  const Points& contacts = r.state.contact_centres;
+  const bool at_contact = m_options.contact > 0 && m_options.contact <= contacts.rows();
+  const Vec3 meant = at_contact ? Vec3(contacts.row(m_options.contact - 1).transpose()) : tip;
+  r.off_target = meant - place_of_goal(side);
   if (o.released) r.since_cannula_left = o.released->since(m_stepper, tip, outward);
   if (o.closed) r.since_surgery = o.closed->since(m_stepper, tip, outward);
   return r;

@@ -2,6 +2,8 @@
 // devices and one solve.
 #pragma once
 
+#include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,10 +54,20 @@ class Procedure {
   // Applies the changes of a stage and solves; throws brainshift::Error for what cannot be.
   StageResult run(const Stage& stage);
 
+  // Where the procedure is, to go on from again: a branch.
+  struct Branch;
+  std::shared_ptr<const Branch> branch() const;
+  void go_back_to(const std::shared_ptr<const Branch>& branch);
+  // Other electrodes and another order of sides, in the stages still to come (`options` as those of
+  // before, but for them). Throws brainshift::Error for what cannot be, nothing changed.
+  void replan(const Options& options);
+
  private:
   struct Operated {   // what has been done on a side
-    std::optional<Trajectory> trajectory;   // with or without devices
+    std::optional<Goal> goal;               // with or without devices
+    std::optional<Trajectory> trajectory;   // towards it
     std::optional<Electrode> electrode;
+    Vec3 goal_at_rest;                        // the tissue of the goal, in the mesh as given
     double lost_before = 0.0;                 // mm^3 of fluid at stage 0, against the mesh as given
     DeviceId device = -1;
     bool in_cannula = false;
@@ -66,7 +78,9 @@ class Procedure {
   static Stepper make_stepper(const Head& head, const Options& options, SceneIds& ids);
   std::vector<Stage> make_plan() const;
   void check_losses() const;
-  bool ends_surgery(const Stage& stage) const;
+  void plan_sides();
+  bool ends_surgery(const Stage& stage) const;   // fluid comes back next
+  bool is_operated(int side) const { return m_side[side].trajectory.has_value(); }
   void check_plan();   // every stage's settings, before the first is solved
   void apply(const Stage& stage);
   void set_loads(const Stage& stage);   // fluid and gravity
@@ -75,6 +89,8 @@ class Procedure {
   void insert_lead(int side);
   void remove_cannula(int side);
   void mark(const Stage& stage);
+  Vec3 tissue_at(const Vec3& point) const;
+  Vec3 place_of_goal(int side) const;
   LeadResult measure_lead(int side) const;
   std::string remark_on(const StageResult& result) const;
 
@@ -86,8 +102,15 @@ class Procedure {
   Stepper m_stepper;
   TissueMeasures m_tissue;
   double m_full_level;
-  Operated m_side[2];
+  std::array<Operated, 2> m_side;
   std::vector<Stage> m_plan;
+};
+
+struct Procedure::Branch {
+  std::shared_ptr<const Stepper::Snapshot> state;
+  std::array<Operated, 2> side;
+  Options options;
+  std::vector<Stage> plan;
 };
 
 }  // namespace dbs

@@ -17,6 +17,8 @@ void print_electrodes(const std::vector<StageResult>& stages);
 
 // Makes the folder, and takes the results of an earlier run out of it.
 void prepare_folder(const std::string& folder);
+// A file, whole or not at all.
+void write_whole(const std::string& path, const std::string& text);
 // stages.json, stages.csv and electrodes.csv; each written whole or not at all.
 void write_tables(const std::string& folder, const Head& head, const Options& options,
                   const std::vector<StageResult>& stages);

@@ -73,6 +73,27 @@ void hold_stem(const Head& head, const Options& o, ConstraintSet& set) {
   if (o.support.find("optic") != std::string::npos) set.fix("optic nerves", head.optic);
 }
 
+// What runs through the fluid between brain and skull (arachnoid, veins), as springs per area.
+void add_tether(const Head& head, double per_area, ConstraintSet& set) {
+  const Mesh& brain = head.brain;
+  Indices outer;
+  for (Index f = 0; f < brain.surface().rows(); ++f) {
+    const auto nodes = brain.surface().row(f);
+    const auto medial = [&](int k) { return head.pair[std::size_t(nodes[k])] >= 0; };
+    if (!(medial(0) && medial(1) && medial(2))) outer.push_back(f);
+  }
+  const Points area = area_vectors(brain, outer);
+  Indices nodes;
+  for (Index i = 0; i < brain.node_count(); ++i) {
+    if (area.row(i).norm() > 0.0) nodes.push_back(i);
+  }
+  Eigen::VectorXd stiffness(Eigen::Index(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    stiffness[Eigen::Index(i)] = per_area * area.row(nodes[i]).norm();
+  }
+  set.support("tether", nodes, stiffness);
+}
+
 void add_contact(const Head& head, const Options& o, ConstraintSet& set, SceneIds& ids) {
   const Mesh& brain = head.brain;
   const std::vector<char> bridge = mask(head.bridge, brain.node_count());
@@ -157,6 +178,7 @@ Scene make_scene(const Head& head, const Options& o, SceneIds& ids) {
   for (Index node : head.bridge) twins.push_back(head.pair[std::size_t(node)]);
   scene.constraints.tie("bridge", head.bridge, twins);
   hold_stem(head, o, scene.constraints);
+  if (o.tether > 0.0) add_tether(head, o.tether, scene.constraints);
   add_contact(head, o, scene.constraints, ids);
   return scene;
 }

@@ -38,7 +38,7 @@ nlohmann::json to_json(const LeadResult& r) {
   nlohmann::json arcs = nlohmann::json::array();
   for (Eigen::Index p = 0; p < d.path_arcs.size(); ++p) arcs.push_back(number(d.path_arcs[p]));
   return {{"device", d.name}, {"in_cannula", r.in_cannula},
-          {"target_mm", to_json(r.trajectory.target)}, {"outward", to_json(r.trajectory.outward)},
+          {"off_target_mm", to_json(r.off_target)}, {"target_mm", to_json(r.trajectory.target)}, {"outward", to_json(r.trajectory.outward)},
           {"burr_hole_mm", to_json(r.trajectory.inner_table)},
           {"tip_mm", to_json(Vec3(d.nodes.row(0).transpose()))}, {"nodes_mm", to_json(d.nodes)},
           {"contacts_mm", to_json(d.contact_centres)},
@@ -83,26 +83,19 @@ nlohmann::json to_json(const StageResult& s) {
 }
 
 nlohmann::json to_json(const Options& o) {
-  return {{"preset", o.preset}, {"scale", o.scale}, {"mass_kg", o.mass}, {"law", o.law}, {"young_kPa", o.young}, {"poisson", o.poisson},
+  return {{"preset", o.preset}, {"scale", o.scale}, {"gap_mm", o.gap}, {"mass_kg", o.mass},
+          {"law", o.law}, {"young_kPa", o.young}, {"poisson", o.poisson},
           {"density_kg_m3", o.density}, {"csf_density_kg_m3", o.csf_density}, {"right", o.right},
           {"left", o.left}, {"late", o.late}, {"elevation_deg", o.elevation},
           {"imaging_elevation_deg", imaging_elevation(o)}, {"fluid", o.fluid},
-          {"support", o.support}, {"falx", o.falx}, {"skull", o.skull}, {"balanced", o.balanced},
-          {"sides", o.sides}, {"target", o.target}, {"target_right_mm", o.target_right},
+          {"support", o.support}, {"tether_kPa_mm", o.tether}, {"falx", o.falx}, {"skull", o.skull}, {"balanced", o.balanced},
+          {"sides", o.sides}, {"first", o.first}, {"recover_between", o.recover_between}, {"target", o.target}, {"target_right_mm", o.target_right},
           {"target_left_mm", o.target_left}, {"sagittal_deg", number(o.sagittal)},
-          {"lateral_deg", number(o.lateral)}, {"devices", o.devices}, {"aim", o.aim}, {"lead", o.lead},
+          {"lateral_deg", number(o.lateral)}, {"devices", o.devices}, {"aim", o.aim}, {"offset_right_mm", o.offset_right},
+          {"offset_left_mm", o.offset_left}, {"contact", o.contact}, {"lead", o.lead},
           {"test_electrode", o.test_electrode}, {"bending_Nmm2", o.bending},
-          {"friction_kPa", o.friction}, {"slack_mm", o.slack}, {"clamped", o.clamped},
+          {"friction_kPa", o.friction}, {"tip_hold_mN", o.tip_hold}, {"slack_mm", o.slack}, {"clamped", o.clamped},
           {"cannula_depth_mm", o.cannula_depth}, {"elastic_cannula", o.elastic_cannula}};
-}
-
-void write_whole(const std::string& path, const std::string& text) {
-  const std::string temporary = path + ".part";
-  std::ofstream file(temporary, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Error(ErrorCode::file, temporary + ": cannot be written");
-  std::filesystem::rename(temporary, path);
 }
 
 std::string stages_csv(const std::vector<StageResult>& stages) {
@@ -169,10 +162,19 @@ std::string electrodes_csv(const std::vector<StageResult>& stages) {
 
 }  // namespace
 
+void write_whole(const std::string& path, const std::string& text) {
+  const std::string temporary = path + ".part";
+  std::ofstream file(temporary, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw Error(ErrorCode::file, temporary + ": cannot be written");
+  std::filesystem::rename(temporary, path);
+}
+
 void prepare_folder(const std::string& folder) {
   namespace fs = std::filesystem;
   static const std::regex mine("stage_[0-9][a-c]?(_(left|right)(_track)?)?[.](vtu|vtp|png)|"
-                               "stages([.]electrodes)?[.]pvd|stages[.](json|csv)|electrodes[.]csv");
+                               "stages([.]electrodes)?[.]pvd|stages[.](json|csv)|electrodes[.]csv|plan[.]json");
   fs::create_directories(folder);
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(folder)) {

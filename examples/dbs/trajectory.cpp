@@ -67,7 +67,19 @@ Trajectory make_trajectory(const Head& head, int side, const Vec3& target, const
   return {target, outward, target + skull * outward, skull};
 }
 
-Trajectory plan_trajectory(const Head& head, const Options& o, int side) {
+double contact_arc(const Options& o) {
+  if (o.contact == 0) return 0.0;
+  const DeviceData& lead = device_data(o.lead);
+  if (o.contact > lead.contact_count) {
+    throw Error(ErrorCode::invalid_argument,
+                "--contact " + std::to_string(o.contact) + ": " + o.lead + " has " +
+                    std::to_string(lead.contact_count));
+  }
+  return lead.tip + 0.5 * lead.contact_length +
+         (o.contact - 1) * (lead.contact_length + lead.contact_gap);
+}
+
+Goal plan_goal(const Head& head, const Options& o, int side) {
   const auto planned = head.plans.find(side);
   Vec3 target = planned != head.plans.end() ? planned->second.target
                                             : head.landmarks.at(std::string("STN_") + name_of(side));
@@ -86,7 +98,14 @@ Trajectory plan_trajectory(const Head& head, const Options& o, int side) {
     outward = outward_of(side, std::isnan(o.sagittal) ? 60.0 : o.sagittal,
                          std::isnan(o.lateral) ? 20.0 : o.lateral);
   }
-  return make_trajectory(head, side, target, outward);
+  return {target, outward};
+}
+
+Trajectory aim_at(const Head& head, const Options& o, int side, const Vec3& point,
+                  const Vec3& outward) {
+  const std::vector<double>& given = side == right ? o.offset_right : o.offset_left;
+  const Vec3 offset = given.empty() ? Vec3::Zero() : Vec3(given[0], given[1], given[2]);
+  return make_trajectory(head, side, point + offset - contact_arc(o) * outward, outward);
 }
 
 }  // namespace dbs

@@ -32,6 +32,8 @@ struct Hold {
 
 struct TrackOptions {
   double shear_bound = 0.0;    // kPa; friction along the device: bound * 2 pi r per length
+  double tip_bound = 0.0;      // mN; friction besides, at the deepest point of the track: tissue that
+                               // has grown onto the tip
   double least_spacing = 1.0;  // mm; path points closer than this are one
 };
 

@@ -163,6 +163,9 @@ class Stepper {
   void exchange(DeviceId id, const BeamDevice& device, const Hold& hold, double advance = 0.0);
   // Another hold, in the shape the device has now. The same errors as of insert().
   void set_hold(DeviceId id, const Hold& hold);
+  // Other bounds of friction, as of TrackOptions; forces above them fall to them at once.
+  // Throws invalid_argument if one is negative or not a number.
+  void set_friction(DeviceId id, double shear_bound, double tip_bound = 0.0);
   void remove(DeviceId id);
   DeviceState device(DeviceId id) const;   // of the last good state; throws invalid_argument
   const BeamDevice& device_model(DeviceId id) const;   // what was inserted last

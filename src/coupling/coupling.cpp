@@ -68,7 +68,7 @@ std::vector<CouplingRow> Coupling::rows(const Points& u,
       rows.push_back({d, p, 1, RowKind::across, second, foot.place, second.dot(off), -unbounded,
                       unbounded});
       const double arc = arc_of(device.beam, foot.place), from = m_start_arcs[d][p];
-      const double bound = friction_bound(device, device.path[p], arc);
+      const double bound = friction_bound(device, p, arc);
       if (bound > 0.0) {
         const double slip = std::isnan(from) ? 0.0 : arc - from;
         rows.push_back({d, p, 2, RowKind::along, tangent, foot.place, slip, -bound, bound});

@@ -1,5 +1,6 @@
 #include "coupling/inserted_device.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "beam/rigid_device.hpp"
@@ -50,9 +51,18 @@ InsertedDevice place_device(DeviceId id, const BeamDevice& device, const Placeme
   return inserted;
 }
 
-double friction_bound(const InsertedDevice& device, const PathPoint& point, double arc) {
+double friction_bound(const InsertedDevice& device, std::size_t p, double arc) {
   constexpr double pi = 3.14159265358979323846;
-  return device.options.shear_bound * 2.0 * pi * device.beam.device().radius_at(arc) * point.length;
+  const double surface = 2.0 * pi * device.beam.device().radius_at(arc) * device.path[p].length;
+  return device.options.shear_bound * surface + (p == 0 ? device.options.tip_bound : 0.0);
+}
+
+void clamp_friction(InsertedDevice& device) {
+  for (std::size_t p = 0; p < device.path.size(); ++p) {
+    const double bound = friction_bound(device, p, device.path[p].arc);
+    double& force = device.motion.multipliers[p][2];
+    force = std::clamp(force, -bound, bound);
+  }
 }
 
 Vec3 path_position(const Mesh& mesh, const Points& u, const PathPoint& point) {

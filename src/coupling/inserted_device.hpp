@@ -44,8 +44,12 @@ InsertedDevice place_device(DeviceId id, const BeamDevice& device, const Placeme
                             const Hold& hold, const TrackOptions& options,
                             std::vector<PathPoint> path);
 
-// Largest friction (mN) on the part of the track a point stands for, at an arc length of the device.
-double friction_bound(const InsertedDevice& device, const PathPoint& point, double arc);
+// Largest friction (mN) on the part of the track that path point `p` stands for, when that point lies at
+// an arc length of the device.
+double friction_bound(const InsertedDevice& device, std::size_t p, double arc);
+
+// Friction the device cannot bear falls to what it can.
+void clamp_friction(InsertedDevice& device);
 
 // Position of a path point for displacements u.
 Vec3 path_position(const Mesh& mesh, const Points& u, const PathPoint& point);

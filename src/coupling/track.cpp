@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 
 #include <Eigen/LU>
@@ -53,9 +54,50 @@ bool may_cross(const Mesh& mesh, const Points& x, Index t, const Vec3& tip, cons
   return (off - off.dot(outward) * outward).squaredNorm() <= reach;
 }
 
+// Points whose ties would say nothing that those of the others do not say already: where the line
+// passes through all three tets around an edge, their five nodes hold four points, and on a curved
+// device four such ties contradict each other.
+class Independent {
+ public:
+  // Whether the point is independent of those taken before; then it is taken too.
+  bool take(const Mesh& mesh, const PathPoint& point) {
+    std::map<Index, double> rest;   // by node
+    for (int a = 0; a < 4; ++a) {
+      if (point.weights[a] != 0.0) rest[mesh.tets()(point.tet, a)] = point.weights[a];
+    }
+    const double whole = norm(rest);
+    for (int pass = 0; pass < 2; ++pass) {   // twice is enough (Kahan)
+      for (const auto& unit : m_basis) {
+        double part = 0.0;
+        for (const auto& [node, value] : unit) {
+          const auto found = rest.find(node);
+          if (found != rest.end()) part += value * found->second;
+        }
+        if (part == 0.0) continue;
+        for (const auto& [node, value] : unit) rest[node] -= part * value;
+      }
+    }
+    const double left = norm(rest);
+    if (left < least * whole) return false;
+    for (auto& entry : rest) entry.second /= left;
+    m_basis.push_back(std::move(rest));
+    return true;
+  }
+
+ private:
+  static constexpr double least = 1e-6;  // dependence is exact, or far from it
+  static double norm(const std::map<Index, double>& v) {
+    double sum = 0.0;
+    for (const auto& entry : v) sum += entry.second * entry.second;
+    return std::sqrt(sum);
+  }
+  std::vector<std::map<Index, double>> m_basis;
+};
+
 // Crossings with faces, none nearer than least_spacing to the one before; may be none at all.
 std::vector<PathPoint> crossings(const Mesh& mesh, const Points& positions, const Vec3& tip,
-                                 const Vec3& outward, double length, double least_spacing) {
+                                 const Vec3& outward, double length, double least_spacing,
+                                 Independent known) {
   struct Piece {
     Index tet;
     Crossing crossing;
@@ -89,7 +131,8 @@ std::vector<PathPoint> crossings(const Mesh& mesh, const Points& positions, cons
     if (c.to - before < least_spacing || c.to >= length) continue;
     Eigen::Vector4d weights = (c.at_tip + c.to * c.slope).cwiseMax(0.0);
     weights /= weights.sum();
-    path.push_back({piece.tet, weights, c.to, 0.0});
+    const PathPoint point{piece.tet, weights, c.to, 0.0};
+    if (known.take(mesh, point)) path.push_back(point);
   }
   // Each point stands for the track half-way to its neighbours.
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -104,7 +147,7 @@ std::vector<PathPoint> crossings(const Mesh& mesh, const Points& positions, cons
 
 std::vector<PathPoint> cut_track(const Mesh& mesh, const Points& positions, const Vec3& tip,
                                  const Vec3& outward, double length, double least_spacing) {
-  std::vector<PathPoint> path = crossings(mesh, positions, tip, outward, length, least_spacing);
+  std::vector<PathPoint> path = crossings(mesh, positions, tip, outward, length, least_spacing, {});
   if (path.empty()) {
     throw Error(ErrorCode::invalid_argument, "the track crosses no face of the mesh");
   }
@@ -114,7 +157,10 @@ std::vector<PathPoint> cut_track(const Mesh& mesh, const Points& positions, cons
 std::vector<PathPoint> extend_track(const Mesh& mesh, const Points& positions, const Vec3& tip,
                                     const Vec3& outward, double advance, double least_spacing,
                                     const std::vector<PathPoint>& path) {
-  std::vector<PathPoint> longer = crossings(mesh, positions, tip, outward, advance, least_spacing);
+  Independent known;
+  for (const PathPoint& point : path) known.take(mesh, point);
+  std::vector<PathPoint> longer =
+      crossings(mesh, positions, tip, outward, advance, least_spacing, std::move(known));
   for (PathPoint point : path) {
     point.arc += advance;
     longer.push_back(point);

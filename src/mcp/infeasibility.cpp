@@ -44,7 +44,7 @@ std::vector<Index> contradiction(const Problem& problem, const VectorXd& directi
     value += limit;
     size += std::abs(limit);
   }
-  if (!(value < -clearly_negative * size)) return rows;
+  if (!(value < -clearly_negative * size - u.cwiseAbs().dot(problem.noise))) return rows;
   for (Index i = 0; i < problem.size(); ++i) {
     if (std::abs(u[i]) > 1e-3) rows.push_back(i);
   }

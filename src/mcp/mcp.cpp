@@ -97,7 +97,7 @@ McpSolution solve_mcp(const Eigen::MatrixXd& M, const Eigen::VectorXd& q,
                       const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                       const McpOptions& options) {
   mcp::validate(M, q, lower, upper, options);
-  const Problem original{M, q, lower, upper};
+  const Problem original{M, q, lower, upper, Eigen::VectorXd::Constant(q.size(), options.noise)};
   const mcp::Scaling scaling = mcp::scaling_of(M);
   const Problem problem = mcp::scaled(original, scaling);
   const double tolerance = attainable(options.tolerance, original.size());

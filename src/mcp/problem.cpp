@@ -28,16 +28,18 @@ RowError natural_error(const Problem& problem, const VectorXd& z) {
   constexpr double floor_of_terms = 1e-3, cap_of_load = 1e4;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (problem.size() == 0) return {0.0, -1};
-  const VectorXd h = natural_map(problem, z, problem.w(z));
+  const VectorXd w = problem.w(z);
+  const VectorXd h = natural_map(problem, z, w);
   const VectorXd terms = problem.M.cwiseAbs() * z.cwiseAbs() + problem.q.cwiseAbs();
   const VectorXd load = problem.w(problem.clamp(VectorXd::Zero(problem.size())));
   const double most = cap_of_load * load.cwiseAbs().maxCoeff();
   const double least = floor_of_terms * std::min(terms.maxCoeff(), most);
   RowError worst{0.0, 0};
   for (Index i = 0; i < problem.size(); ++i) {
-    double error = 0.0;
-    if (h[i] != 0.0) error = std::abs(h[i]) / std::clamp(terms[i], least, most);
-    if (!std::isfinite(error) || !std::isfinite(z[i])) return {infinity, i};
+    const bool inner = side_of(problem, i, z[i], w[i]) == Side::inner;
+    const double size = std::abs(h[i]) - (inner ? problem.noise[i] : 0.0);
+    const double error = size > 0.0 ? size / std::clamp(terms[i], least, most) : 0.0;
+    if (!std::isfinite(h[i]) || !std::isfinite(error) || !std::isfinite(z[i])) return {infinity, i};
     if (error > worst.value) worst = {error, i};
   }
   return worst;

@@ -13,6 +13,7 @@ using Eigen::VectorXd;
 struct Problem {
   MatrixXd M;
   VectorXd q, lower, upper;
+  VectorXd noise;   // of q, row by row
 
   Index size() const { return static_cast<Index>(q.size()); }
   VectorXd w(const VectorXd& z) const { return M * z + q; }

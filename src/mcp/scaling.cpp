@@ -57,6 +57,7 @@ Problem scaled(const Problem& original, const Scaling& scaling) {
   Problem problem;
   problem.M = scaling.row.asDiagonal() * original.M * scaling.column.asDiagonal();
   problem.q = original.q.cwiseProduct(scaling.row);
+  problem.noise = original.noise.cwiseProduct(scaling.row);
   problem.lower = original.lower.cwiseQuotient(scaling.column);
   problem.upper = original.upper.cwiseQuotient(scaling.column);
   return problem;

@@ -54,6 +54,9 @@ void validate(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, const Eigen::V
              "M(" + std::to_string(i) + ", " + std::to_string(j) + ") is not finite");
     }
   }
+  if (!std::isfinite(options.noise) || options.noise < 0.0) {
+    refuse(ErrorCode::invalid_argument, "noise is not a number of zero or more");
+  }
   if (!std::isfinite(options.tolerance) || options.tolerance < 0.0) {
     refuse(ErrorCode::invalid_argument, "tolerance is not a number of zero or more");
   }

@@ -11,6 +11,11 @@
 namespace brainshift {
 namespace {
 
+// Gaps are differences of positions: rounding of them, as part of the largest coordinate. Where rows
+// all but depend on each other (a track along an edge of the mesh), that is not to be read as a
+// contradiction between them.
+constexpr double gap_rounding = 64.0 * std::numeric_limits<double>::epsilon();
+
 // A row that gives way by less than this part of what a node of the tissue would: both its sides are
 // held, and rounding of its gap would make forces without bound of it.
 constexpr double immovable = 1e-10;
@@ -137,7 +142,9 @@ bool Newton::solve_rows(const Coupled& problem, const DeviceVectors& loads, Step
   Eigen::MatrixXd W = problem.W;
   Eigen::VectorXd lower = problem.lower, upper = problem.upper;
   take_out_held_rows(problem.C, m_cache.stiffness.mean_diagonal(), W, q, lower, upper);
-  const McpSolution found = solve_mcp(W, q, lower, upper);
+  McpOptions options;
+  options.noise = gap_rounding * m_eq.mesh().nodes().cwiseAbs().maxCoeff();
+  const McpSolution found = solve_mcp(W, q, lower, upper, options);
   m_report.coupling_rank = found.report.rank;
   m_report.coupling_unique = found.report.unique;
   if (found.report.status != McpStatus::solved) return false;

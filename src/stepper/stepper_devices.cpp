@@ -31,15 +31,21 @@ void check_hold(const Hold& hold, double length) {
   }
 }
 
+void check_friction(double shear_bound, double tip_bound) {
+  if (!(shear_bound >= 0.0) || !(tip_bound >= 0.0)) {
+    throw Error(ErrorCode::invalid_argument, "a bound of friction is negative or not a number");
+  }
+}
+
 }  // namespace
 
 DeviceId Stepper::insert(const BeamDevice& device, const Placement& placement, const Hold& hold,
                          const TrackOptions& options) {
   m_impl->refuse_when_begun("insert");
   check_hold(hold, device.length());
-  if (!(options.shear_bound >= 0.0) || !(options.least_spacing > 0.0)) {
-    throw Error(ErrorCode::invalid_argument,
-                "TrackOptions: shear_bound must be at least 0 and least_spacing positive");
+  check_friction(options.shear_bound, options.tip_bound);
+  if (!(options.least_spacing > 0.0)) {
+    throw Error(ErrorCode::invalid_argument, "TrackOptions: least_spacing must be positive");
   }
   if (!placement.tip.allFinite() || !(std::abs(placement.outward.norm() - 1.0) <= 1e-6)) {
     throw Error(ErrorCode::invalid_argument,
@@ -71,12 +77,8 @@ void Stepper::exchange(DeviceId id, const BeamDevice& device, const Hold& hold, 
     multipliers.insert(multipliers.begin(), path.size() - old.path.size(), Vec3::Zero());
   }
   InsertedDevice next = place_device(id, device, placement, hold, old.options, std::move(path));
-  // Friction carried over is no more than the new device can bear: its radius may be smaller.
-  for (std::size_t p = 0; p < multipliers.size(); ++p) {
-    const double bound = friction_bound(next, next.path[p], next.path[p].arc);
-    multipliers[p][2] = std::clamp(multipliers[p][2], -bound, bound);
-  }
   next.motion.multipliers = std::move(multipliers);
+  clamp_friction(next);   // its radius may be smaller
   old = std::move(next);
 }
 
@@ -84,6 +86,15 @@ void Stepper::set_hold(DeviceId id, const Hold& hold) {
   m_impl->refuse_when_begun("set_hold");
   check_hold(hold, m_impl->device(id).beam.device().length());
   m_impl->device(id).hold = hold;
+}
+
+void Stepper::set_friction(DeviceId id, double shear_bound, double tip_bound) {
+  m_impl->refuse_when_begun("set_friction");
+  check_friction(shear_bound, tip_bound);
+  InsertedDevice& device = m_impl->device(id);
+  device.options.shear_bound = shear_bound;
+  device.options.tip_bound = tip_bound;
+  clamp_friction(device);
 }
 
 void Stepper::remove(DeviceId id) {

@@ -36,6 +36,32 @@ TEST(Devices, InsertedAlongTheirLineMoveNothing) {
   EXPECT_LE(d.bow, 1e-9);
 }
 
+// Three tets around an edge have five nodes and would hold four points of a track: ties that depend on
+// each other, and contradict each other once the device bends.
+TEST(Devices, LieInMeshesWithThreeTetsAroundAnEdge) {
+  Scene scene = leaning_block(0.01);
+  scene.mesh = test::make_mesh(
+      test::split_at_centroids(test::make_box({40.0, 40.0, test::block_height}, 3, 3, 5)));
+  scene.constraints = {};
+  scene.constraints.fix(
+      "base", test::nodes_where(scene.mesh, [](const Vec3& x) { return x.z() == 0.0; }));
+  for (int i = 0; i < 16; ++i) {
+    SCOPED_TRACE(i);
+    Stepper stepper(scene);
+    ASSERT_TRUE(stepper.solve_static().converged());
+    const Vec3 direction = Vec3(0.3 * std::sin(i), 0.3 * std::cos(3 * i), 1.0).normalized();
+    const DeviceId id =
+        stepper.insert(make_device("cannula", test::device_length), {tip, direction}, whole());
+    ASSERT_TRUE(stepper.solve_static().converged());
+    stepper.exchange(id, lead(), wire_only());
+    stepper.set_gravity(leaning(0.02));
+    const SolveReport report = stepper.solve_static();
+    ASSERT_TRUE(report.converged()) << report.message;
+    EXPECT_EQ(report.coupling_rank, report.coupling_rows);
+    EXPECT_GT(stepper.device(id).bow, 1e-3);
+  }
+}
+
 TEST(Devices, ACannulaHoldsItsTrackAndItsRemovalReleasesIt) {
   Stepper with(leaning_block(0.01)), without(leaning_block(0.01));
   for (Stepper* s : {&with, &without}) ASSERT_TRUE(s->solve_static().converged());

@@ -105,6 +105,30 @@ TEST(PullOut, BelowTheBoundNothingSlips) {
   EXPECT_LT(p.sum(), -1.0);  // and the device does hold the tissue
 }
 
+// A tip that tissue has grown onto bears its bound besides, from when the host says so.
+TEST(PullOut, ATipHeldBearsItsBoundBesides) {
+  Stepper stepper(block_on_base(Vec3::Zero()));
+  const BeamDevice device = make_device("cannula", device_length);
+  TrackOptions options;
+  options.tip_bound = 5.0;
+  const DeviceId id = stepper.insert(device, {lead_tip, lead_outward}, whole(), options);
+  stepper.set_gravity(part_of_gravity * 9810.0 * lead_outward);
+  ASSERT_TRUE(stepper.solve_static().converged());
+  const double strong = -stepper.device(id).anchor_force.dot(lead_outward);
+  const double shear = 1e-3, tip = 0.25;
+  stepper.set_friction(id, shear, tip);
+  ASSERT_TRUE(stepper.solve_static().converged());
+  const double expected = 2.0 * pi * device.section(0).radius * track_length * shear + tip;
+  const double weak = -stepper.device(id).anchor_force.dot(lead_outward);
+  std::printf("pull-out, tip held: %.9f mN; bound %.9f mN; while it does not slip %.3f mN\n", weak,
+              expected, strong);
+  EXPECT_NEAR(weak, expected, 1e-9 * expected);
+  EXPECT_GT(strong, 1.1 * weak);
+  EXPECT_LT(strong, 5.0);   // the bound it did not reach
+  EXPECT_THROW(stepper.set_friction(id, -1.0), Error);
+  EXPECT_THROW(stepper.set_friction(id, 0.0, std::nan("")), Error);
+}
+
 // In between, the rows near the top slip and the others hold; the force is less than the bound.
 TEST(PullOut, InBetweenPartOfTheTrackSlips) {
   const BeamDevice device = make_device("cannula", device_length);

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <gtest/gtest.h>
 #include <Eigen/LU>
+#include <Eigen/QR>
+#include <gtest/gtest.h>
 
 #include "coupling/track.hpp"
 #include "support/beams.hpp"
@@ -124,6 +125,41 @@ TEST(Track, NorAlongEdgesAndThroughNodes) {
   }
   std::printf("track along edges: at most %d in one tet\n", counted.most);
   EXPECT_LE(counted.most, 2);
+}
+
+// Rank of the weights of the path points over the nodes, by rows scaled to length 1.
+Eigen::Index rank_of(const Mesh& mesh, const std::vector<PathPoint>& path) {
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(Eigen::Index(path.size()), mesh.node_count());
+  for (std::size_t p = 0; p < path.size(); ++p) {
+    for (int a = 0; a < 4; ++a) {
+      weights(Eigen::Index(p), mesh.tets()(path[p].tet, a)) += path[p].weights[a];
+    }
+  }
+  weights.rowwise().normalize();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(weights);
+  qr.setThreshold(1e-6);
+  return qr.rank();
+}
+
+// Three tets around an edge have five nodes; a line through all of them would meet four of their faces.
+TEST(Track, PointsAreIndependentWhereThreeTetsShareAnEdge) {
+  std::mt19937 random(43);
+  const Mesh mesh = make_mesh(split_at_centroids(make_box({40.0, 40.0, 40.0}, 3, 3, 3)));
+  Eigen::Index points = 0, more = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const Vec3 tip = Vec3::Constant(20.0) + random_vector(random, 8.0);
+    const Vec3 outward = random_vector(random, 1.0).normalized();
+    const auto path = cut_track(mesh, mesh.nodes(), tip, outward, 200.0, 0.1);
+    EXPECT_EQ(rank_of(mesh, path), Eigen::Index(path.size())) << trial;
+    points += Eigen::Index(path.size());
+    const auto longer =
+        extend_track(mesh, mesh.nodes(), tip - 6.0 * outward, outward, 6.0, 0.1, path);
+    EXPECT_EQ(rank_of(mesh, longer), Eigen::Index(longer.size())) << trial;
+    more += Eigen::Index(longer.size() - path.size());
+  }
+  std::printf("tracks through rings of three tets: %d points, all independent\n", int(points));
+  EXPECT_GT(points, 300);
+  EXPECT_GT(more, 60);
 }
 
 }  // namespace

@@ -30,6 +30,22 @@ TEST(Redundancy, a_ray_of_solutions) {
   }
 }
 
+// Two ties that repeat each other, their gaps known to rounding only.
+TEST(Redundancy, noise_is_no_contradiction) {
+  Case c = one_sided(MatrixXd::Ones(2, 2), vector({1e-14, -3e-14}));
+  c.lower = vector({-inf, -inf});
+  McpOptions options;
+  EXPECT_EQ(solve_mcp(c.M, c.q, c.lower, c.upper, options).report.status, McpStatus::infeasible);
+  options.noise = 1e-13;
+  EXPECT_EQ(solve_mcp(c.M, c.q, c.lower, c.upper, options).report.status, McpStatus::solved);
+  c.q = vector({1.0, 1.0 + 1e-14});   // beside what is known the noise is nothing
+  const McpSolution s = solve_mcp(c.M, c.q, c.lower, c.upper, options);
+  EXPECT_EQ(s.report.status, McpStatus::solved);
+  EXPECT_NEAR(s.z.sum(), -1.0, 1e-12);
+  c.q = vector({1e-14, -3e-12});      // more than noise
+  EXPECT_EQ(solve_mcp(c.M, c.q, c.lower, c.upper, options).report.status, McpStatus::infeasible);
+}
+
 // Two equal contacts that just touch: dependent rows, but neither may pull while the other pushes.
 TEST(Redundancy, dependent_rows_at_their_bounds_can_still_have_one_answer) {
   Case c = one_sided(MatrixXd::Ones(2, 2), vector({0, 0}));

@@ -193,6 +193,7 @@ TEST(Phases, AnOpenSolveTakesNoNewStateAndNoNewSettings) {
   refused("set_velocity", [&] { stepper.set_velocity(stepper.velocity()); });
   refused("insert", [&] { insert_cannula(stepper); });
   refused("remove", [&] { stepper.remove(0); });
+  refused("set_friction", [&] { stepper.set_friction(0, 0.1); });
   refused("set_hold", [&] { stepper.set_hold(0, {0.0, 1.0, false}); });
   refused("exchange", [&] { stepper.exchange(0, make_device("3389", 40.0), {0.0, 1.0, false}); });
   stepper.csf().set_lost_volume(0, 9000.0);  // of the next begin

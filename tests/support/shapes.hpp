@@ -87,6 +87,23 @@ inline TetShape make_ball(double radius, int n) {
   return ball;
 }
 
+// Each tet cut into four at its centroid: three tets around each new edge.
+inline TetShape split_at_centroids(const TetShape& coarse) {
+  const Index nodes = Index(coarse.points.rows()), count = Index(coarse.tets.rows());
+  TetShape fine{Points(nodes + count, 3), Tets(4 * count, 4)};
+  fine.points.topRows(nodes) = coarse.points;
+  for (Index t = 0; t < count; ++t) {
+    Vec3 centroid = Vec3::Zero();
+    for (int a = 0; a < 4; ++a) centroid += 0.25 * coarse.points.row(coarse.tets(t, a)).transpose();
+    fine.points.row(nodes + t) = centroid.transpose();
+    for (int a = 0; a < 4; ++a) {
+      fine.tets.row(4 * t + a) = coarse.tets.row(t);
+      fine.tets(4 * t + a, a) = nodes + t;
+    }
+  }
+  return fine;
+}
+
 // Sphere around the origin with outward triangles: an icosahedron, each triangle split into four
 // `subdivisions` times; 20 * 4^subdivisions triangles, all nodes on the sphere.
 inline SurfaceShape make_icosphere(double radius, int subdivisions) {

@@ -5,7 +5,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from studies import PAPER, PRESETS, SENSITIVITY, law
+from studies import PAPER, SENSITIVITY, STUDIED, law
 
 COLOURS = {"default": "tab:blue", "paper-2011": "tab:red", "paper-2011, MNI size": "tab:orange"}
 
@@ -83,10 +83,10 @@ def lead(runs, path):
 
 
 def tornado(runs, measure, title, path):
-    figure, axes = plt.subplots(len(PRESETS), len(PAPER), figsize=(10, 3.3 * len(PRESETS)),
+    figure, axes = plt.subplots(len(STUDIED), len(PAPER), figsize=(10, 4.2 * len(STUDIED)),
                                 squeeze=False, sharey=True)
     names = list(SENSITIVITY)
-    for row, preset in zip(axes, PRESETS):
+    for row, preset in zip(axes, STUDIED):
         for axis, volume in zip(row, PAPER):
             base = runs[preset, volume, "base", 0]
             axis.set_title(f"{preset}, {volume} mL", fontsize=9)
@@ -101,7 +101,7 @@ def tornado(runs, measure, title, path):
                     axis.barh(y, measure(run) - middle, left=middle, color=colour, alpha=0.75)
             axis.axvline(middle, color="k", linewidth=0.8)
             axis.set_yticks(range(len(names)), names, fontsize=7)
-            axis.invert_yaxis()
+    axes[0][0].invert_yaxis()   # of all: they share it
     for axis in axes[-1]:
         axis.set_xlabel(title + ", mm (blue: first named end, purple: second)", fontsize=8)
     save(figure, path)

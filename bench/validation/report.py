@@ -17,6 +17,7 @@ are of this machine and depend on what runs beside; ratios mean more."""),
     "uncertainty": ("Uncertainty", """Right side only; stiffness, lead stiffness, friction and loss drawn evenly in the logarithm, Poisson's
 ratio and elevation evenly, from a fixed seed. Linearised: central values and one finite difference
 each."""),
+    "posture": ("What sets the tether", """No surgery: the head is turned from lying flat; the right STN moves. Seen: 0.5 to 0.8 mm."""),
     "clinic": ("Against patients", """The default preset at the volumes the series had; a difference of less than 1 mm is within what imaging
 resolves, 1.5 to 2 mm between localisation tools."""),
 }

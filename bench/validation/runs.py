@@ -1,6 +1,7 @@
 """Runs of dbs: each set of options once, side by side, kept by a key of its options and its program."""
 import hashlib
 import json
+import shutil
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -54,12 +55,15 @@ class Run:
 
 class Runner:
     def __init__(self, program, head, folder, jobs):
-        self.program, self.head, self.folder, self.jobs = program, head, folder, jobs
+        self.head, self.folder, self.jobs = head, folder, jobs
         self.build = hashlib.sha256(Path(program).read_bytes()).hexdigest()[:12]
+        folder.mkdir(parents=True, exist_ok=True)
+        self.program = str(folder / f"dbs-{self.build}")   # a build in the meantime does not matter
+        shutil.copy2(program, self.program)
         self.done = 0
 
     def folder_of(self, options):
-        text = " ".join([self.build, str(self.head), *options])
+        text = " ".join([self.build, *([] if "--head" in options else [str(self.head)]), *options])
         return self.folder / hashlib.sha256(text.encode()).hexdigest()[:16]
 
     def run(self, options):

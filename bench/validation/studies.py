@@ -60,38 +60,71 @@ def sweep(runner, volumes):
     return rows, runs
 
 
+def paper_table(sweep_runs):
+    """The paper's two figures beside the runs of the sweep at those volumes."""
+    rows = [["preset", "sides", "V mL", "paper, simulated", "law and its band", "D skull", "in band",
+             "D tissue", "STN |shift|", "in band"]]
+    for (preset, way, volume), run in sweep_runs.items():
+        if volume not in PAPER:
+            continue
+        band = {22: 2.0, 62: 2.5}[volume]
+        middle = law(volume)
+        start = [preset, way, str(volume), f"{PAPER[volume]}", f"{middle:.2f} ± {band}"]
+        if not run.converged:
+            rows.append([*start, headline(run)[0], "", "", "", ""])
+            continue
+        inside = lambda x: "yes" if abs(x - middle) <= band else "no"
+        d, shift = run.mean_retraction("skull"), np.linalg.norm(run.shift("STN_right"))
+        rows.append([*start, number(d), inside(d), number(run.mean_retraction("tissue")),
+                     number(shift), inside(shift)])
+    return rows
+
+
+CLAIMS = {
+    "as it is": [], "no falx": ["--no-falx"],
+    "other fluid": None,                         # separate <-> communicating
+    "no loss while testing": ["--late", "0"],    # nothing moves while the cannula is in
+    "no devices": ["--no-devices"],              # no cannula to restrain, none to remove
+    "lead bonded to tissue": ["--friction", "5"],
+    "wire not held by the skull": ["--friction", "0.1", "--slack", "30"],
+    "no tether": ["--tether", "0"],
+}
+
+
 def claims(runner):
     """Each qualitative claim of the paper with its ingredient on and off."""
-    variants = {
-        "as it is": [], "no falx": ["--no-falx"],
-        "other fluid": None,          # separate <-> communicating
-        "no loss while testing": ["--late", "0"],
-    }
     cases = {}
     for preset, options in PRESETS.items():
         other = ["--fluid", "separate" if preset == "default" else "communicating"]
-        for name, change in variants.items():
+        for name, change in CLAIMS.items():
+            if name == "no tether" and preset != "default":
+                continue
             cases[preset, name] = [*options, *both(40), *(other if change is None else change)]
     runs = runner.all(cases)
     rows = [["preset", "variant", "first shift R mm", "first shift L mm", "midline mm",
-             "second shift mm", "second/first", "inverse shift mm", "bow 5 y", "bow 5", "bow 9 y",
-             "bow 9"]]
+             "second shift mm", "second/first", "inverse shift mm", "axial D skull mm",
+             "axial D tissue mm", "bow 5 y", "bow 5", "bow 9 y", "bow 9"]]
     for (preset, name), run in runs.items():
         if not run.converged:
-            rows.append([preset, name, *headline(run)[:1], *[""] * 9])
+            rows.append([preset, name, *headline(run)[:1], *[""] * 11])
             continue
         first = {s: run.stages["1"]["sides"][s]["largest_surface_motion_mm"] for s in ("right", "left")}
         stn1 = np.linalg.norm(run.shift("STN_right", "1"))
-        before = "4" if "4" in run.stages else "3"
-        second = np.linalg.norm(run.shift("STN_right", "5") - run.shift("STN_right", before))
-        inverse = np.linalg.norm(run.shift("STN_right", "9") - run.shift("STN_right", "8"))
-        bows = []
-        for label in ("5", "9"):
-            lead = run.electrode("right", label)
-            bows += [number(lead["bow_direction"][1], 2), number(lead["bow_mm"])]
+        second = ["", ""]
+        if "5" in run.stages:
+            before = "4" if "4" in run.stages else "3"
+            moved = np.linalg.norm(run.shift("STN_right", "5") - run.shift("STN_right", before))
+            second = [number(moved), number(moved / stn1)]
+        last = "8" if "8" in run.stages else "7"
+        inverse = np.linalg.norm(run.shift("STN_right", "9") - run.shift("STN_right", last))
+        lead = [""] * 6
+        if run.sides():
+            lead = [number(run.retraction("right", f)) for f in ("skull", "tissue")]
+            for label in ("5", "9"):
+                e = run.electrode("right", label)
+                lead += [number(e["bow_direction"][1], 2), number(e["bow_mm"])]
         rows.append([preset, name, number(first["right"]), number(first["left"]),
-                     number(run.stages["1"]["midline_shift_mm"]), number(second),
-                     number(second / stn1), number(inverse), *bows])
+                     number(run.stages["1"]["midline_shift_mm"]), *second, number(inverse), *lead])
     return rows, runs
 
 
@@ -99,6 +132,8 @@ SENSITIVITY = {                         # name: (low, high); None: only one othe
     "E 2.1, 40 kPa": (["--young", "2.1"], ["--young", "40"]),
     "nu 0.40, 0.49": (["--poisson", "0.40"], ["--poisson", "0.49"]),
     "law StVK, stable NH": (["--law", "st_venant_kirchhoff"], ["--law", "stable_neo_hookean"]),
+    "CSF gap +1, +2 mm": (["--gap", "1"], ["--gap", "2"]),
+    "tether 0, 0.01 kPa/mm": (["--tether", "0"], ["--tether", "0.01"]),
     "elevation 0, 30 deg": (["--elevation", "0"], ["--elevation", "30"]),
     "stem elastic, fixed+optic": (["--support", "elastic"], ["--support", "fixed+optic"]),
     "reference balanced, free": (["--balanced"], ["--free"]),
@@ -113,10 +148,14 @@ SENSITIVITY = {                         # name: (low, high); None: only one othe
 }
 
 
+STUDIED = ["default", "paper-2011, MNI size"]   # at life size the paper's choices move next to nothing
+
+
 def sensitivity(runner):
     """One choice changed at a time, at 22 and 62 mL of air."""
     cases = {}
-    for preset, options in PRESETS.items():
+    for preset in STUDIED:
+        options = PRESETS[preset]
         for volume in PAPER:
             cases[preset, volume, "base", 0] = [*options, *both(volume)]
             for name, ends in SENSITIVITY.items():
@@ -131,13 +170,23 @@ def sensitivity(runner):
 
 
 def movers(runner):
-    """What moves a lead: friction from none to bonded, slack, loss while the cannula is in."""
-    cases = {(friction, slack, late): [*both(40), "--friction", friction, "--slack", slack,
-                                       "--late", late]
-             for friction in ("0", "0.02", "0.1", "0.5", "5") for slack in ("0", "2", "6")
-             for late in ("0.3", "0.8") if late == "0.3" or slack == "0"}
-    runs = runner.all(cases)
-    rows = [["friction kPa", "slack mm", "late", *HEADLINES]]
+    """What moves a lead."""
+    cases = {}
+    for friction in ("0", "0.02", "0.1", "0.5", "5"):
+        for slack in ("0", "2", "6"):
+            cases[friction, slack, "0.3", "-"] = []
+        cases[friction, "0", "0.8", "-"] = []
+    for hold in ("20", "200"):                      # mN
+        for slack in ("0", "6"):
+            cases["0.02", slack, "0.3", f"tip held {hold} mN"] = ["--tip-hold", hold]
+    for friction in ("0", "0.1"):
+        cases[friction, "0", "0.3", "EI 1 N mm2"] = ["--bending", "1"]
+        cases[friction, "0", "0.3", "cannula 10 mm short"] = ["--cannula-depth", "10"]
+        cases[friction, "0", "0.3", "gap +2 mm"] = ["--gap", "2"]
+        cases[friction, "6", "0.3", "gap +2 mm, EI 1 N mm2"] = ["--gap", "2", "--bending", "1"]
+    runs = runner.all({case: [*both(40), "--friction", case[0], "--slack", case[1], "--late", case[2],
+                              *more] for case, more in cases.items()})
+    rows = [["friction kPa", "slack mm", "late", "besides", *HEADLINES]]
     rows += [[*case, *headline(run)] for case, run in runs.items()]
     return rows, runs
 
@@ -147,22 +196,47 @@ ABLATION = {
     "no falx": ["--no-falx"], "linear law": ["--law", "linear"],
     "St. Venant-Kirchhoff": ["--law", "st_venant_kirchhoff"], "stem fixed": ["--support", "fixed"],
     "separate fluid": ["--fluid", "separate"], "image free of load": ["--free"],
+    "no tether": ["--tether", "0"], "no contact with the skull": ["--no-skull"],
+    "left half held still": ["--sides", "right", "--still", "left"],
+    "in time, steps of 50 ms": ["--time-step", "0.05"],
 }
 
 
 def ablation(runner):
-    """What a scene needs: change of the STN's shift after the first stage of the right side."""
+    """What a scene needs: change of the STN's shift at the end of the right side, and at recovery."""
     runs = runner.all({name: [*both(22), *change] for name, change in ABLATION.items()})
     whole = runs["everything"]
-    rows = [["left out", "STN right off by mm", "of mm", "solves s", "of the whole s"]]
+    rows = [["left out", "STN right, stage 4, off by mm", "of mm", "after recovery, off by mm",
+             "solves s", "of the whole s"]]
     for name, run in runs.items():
         if not run.converged:
-            rows.append([name, headline(run)[0], "", "", ""])
+            rows.append([name, headline(run)[0], "", "", "", ""])
             continue
-        label = "4" if name == "one side" else "7"
-        off = np.linalg.norm(run.shift("STN_right", label) - whole.shift("STN_right", label))
-        rows.append([name, number(off), number(np.linalg.norm(whole.shift("STN_right", label))),
-                     number(run.seconds, 1), number(whole.seconds, 1)])
+        off, end = (np.linalg.norm(run.shift("STN_right", label) - whole.shift("STN_right", label))
+                    for label in ("4", "9"))
+        rows.append([name, number(off), number(np.linalg.norm(whole.shift("STN_right", "4"))),
+                     number(end), number(run.seconds, 1), number(whole.seconds, 1)])
+    return rows, runs
+
+
+def mesh(runner, heads):
+    """The same head in three meshes, at equal volumes of air."""
+    cases = {(preset, volume, name): [*PRESETS[preset], *both(volume), "--head", str(folder)]
+             for name, folder in heads.items() for preset in STUDIED for volume in PAPER}
+    runs = runner.all(dict(reversed(cases.items())))   # the longest first
+    rows = [["preset", "asked mL", "head", "nodes", *HEADLINES]]
+    for preset in STUDIED:
+        for volume in PAPER:
+            here = [runs[preset, volume, name] for name in heads]
+            found = [headline(run) for run in here]
+            for name, run, row in zip(heads, here, found):
+                nodes = str(run.data["head"]["nodes"]) if run.stages else ""
+                rows.append([preset, f"{volume}", name, nodes, *row])
+            if all(run.converged for run in here):
+                values = np.array([[float(x) for x in row] for row in found])
+                spread = values.max(axis=0) - values.min(axis=0)
+                rows.append([preset, f"{volume}", "spread", "",
+                             *[number(x, 1 if i < 2 else 3) for i, x in enumerate(spread)]])
     return rows, runs
 
 
@@ -213,6 +287,20 @@ def uncertainty(runner, count):
         rows.append([name, f"{len(good)} of {count}", number(values.mean()), number(values.std(ddof=1)),
                      number((np.abs(values) > 2.0).mean(), 2),
                      number(np.sqrt(np.sum(np.square(slopes)) / 12.0))])
+    return rows, runs
+
+
+def posture(runner):
+    """What sets the tether: the head turned, no surgery."""
+    tethers, turns = ("0", "0.001", "0.003", "0.01"), ("15", "30", "90")
+    runs = runner.all({(tether, turn): ["--tether", tether, "--no-devices", "--imaging-elevation", "0",
+                                        "--elevation", turn, "--right", "0mL", "--left", "0mL"]
+                       for tether in tethers for turn in turns})
+    rows = [["tether kPa/mm", *[f"turned by {turn} degrees: STN mm" for turn in turns]]]
+    for tether in tethers:
+        here = [runs[tether, turn] for turn in turns]
+        rows.append([tether, *[number(np.linalg.norm(r.shift("STN_right", "0b"))) if r.converged
+                               else headline(r)[0] for r in here]])
     return rows, runs
 
 

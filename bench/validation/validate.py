@@ -49,13 +49,20 @@ def main():
         refused.extend(key for key, run in runs.items() if run.refused)
 
     study("sweep", SWEEP[options.tier])
+    table = studies.paper_table(done["sweep"][1])
+    report.write_csv(out / "paper.csv", table)
+    done["paper"] = (table, {})
     study("claims")
     if long:
         study("sensitivity")
         study("movers")
         study("ablation")
         study("uncertainty", SAMPLES)
+        data = ROOT / "examples/head/data"
+        study("mesh", {"coarse": data / "coarse", "medium": data / "medium",
+                       "finer": ROOT / "build/head/edge-5"})
     study("clinic")
+    study("posture")
     draw(done, pictures)
     report.write_page(docs / "validation.md", done, long)
     failed = [key for _, runs in done.values() for key, run in runs.items() if not run.converged]

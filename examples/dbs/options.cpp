@@ -34,6 +34,7 @@ Options preset(const std::string& name) {
   o.balanced = false;
   o.fluid = "separate";
   o.support = "fixed+optic";
+  o.tether = 0.0;
   return o;
 }
 
@@ -137,6 +138,11 @@ int parse(int argc, char** argv, Options& o) {
   app.add_option("--tether", o.tether, "springs between the outside of the brain and the skull, "
                                        "kPa/mm")
       ->capture_default_str()->check(CLI::Range(0.0, 1e3));
+  app.add_option("--still", o.still, "a half of the brain that is held where it is: left, right")
+      ->check(CLI::IsMember({"left", "right"}));
+  app.add_option("--time-step", o.time_step, "s; each stage goes on in time until it rests, instead of "
+                                             "one balance of forces")
+      ->check(CLI::Range(0.0, 10.0));
   add_electrodes(app, o);
   app.add_flag("--falx,!--no-falx", o.falx, "with or without the falx (hemispheres still touch)");
   app.add_flag("--skull,!--no-skull", o.skull, "with or without contact with skull and tentorium");

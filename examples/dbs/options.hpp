@@ -38,7 +38,9 @@ struct Options {
   double imaging_elevation = std::numeric_limits<double>::quiet_NaN();   // NaN: the same
   std::string fluid = "communicating";
   std::string support = "elastic";
-  double tether = 0.0;            // kPa/mm, springs between the outside of the brain and the skull
+  double tether = 0.003;          // kPa/mm, springs between the outside of the brain and the skull
+  std::string still;              // a half of the brain that is held: left, right; empty: none
+  double time_step = 0.0;         // s; above 0 a stage goes on in time until it rests
   // Electrodes.
   std::string sides = "both";     // that are operated on: both, right, left
   std::string first = "right";    // of both

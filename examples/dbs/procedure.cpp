@@ -26,6 +26,7 @@ Procedure::Procedure(const Head& head, const Options& options)
       m_stepper(make_stepper(head, options, m_ids)),
       m_tissue(head, m_stepper),
       m_full_level(full_level(head, m_gravity)) {
+  if (options.time_step > 0.0) m_stepper.set_damping({20.0, 0.0});   // 1/s: rest within a second
   plan_sides();
   check_losses();
   m_plan = make_plan();
@@ -112,6 +113,28 @@ void Procedure::apply(const Stage& stage) {
   if (stage.action == Action::remove_cannula) remove_cannula(stage.side);
 }
 
+// In time the head comes to rest by damping of its mass; what is left of the way is below what counts.
+SolveReport Procedure::solve() {
+  if (m_options.time_step == 0.0) return m_stepper.solve_static();
+  constexpr int most = 400;
+  constexpr double resting = 1e-3;   // mm per step
+  SolveReport last;
+  for (int i = 0; i < most; ++i) {
+    const Points before = m_stepper.displacement();
+    const SolveReport now = m_stepper.step(m_options.time_step);
+    const double seconds = last.seconds;
+    const int iterations = last.iterations;
+    last = now;
+    last.seconds += seconds;
+    last.iterations += iterations;
+    if (!now.converged()) return last;
+    if ((m_stepper.displacement() - before).rowwise().norm().maxCoeff() < resting) return last;
+  }
+  last.status = Status::not_converged;
+  last.message = "the head did not come to rest in " + std::to_string(most) + " steps";
+  return last;
+}
+
 StageResult Procedure::run(const Stage& stage) {
   StageResult result{};
   result.label = stage.label;
@@ -120,7 +143,7 @@ StageResult Procedure::run(const Stage& stage) {
     if (m_plan[i].label == stage.label) result.time = double(i);
   }
   apply(stage);
-  result.report = m_stepper.solve_static();
+  result.report = solve();
   if (!m_options.quiet && isatty(2)) std::fprintf(stderr, "\r%60s\r", "");
   if (stage.action == Action::none && result.report.converged()) {
     m_tissue.set_reference(m_stepper);

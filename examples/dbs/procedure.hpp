@@ -84,6 +84,7 @@ class Procedure {
   void check_plan();   // every stage's settings, before the first is solved
   void apply(const Stage& stage);
   void set_loads(const Stage& stage);   // fluid and gravity
+  SolveReport solve();   // to rest: as one balance, or step by step
   void lose(int side, const Loss& loss, double part);
   void insert_cannula(int side);
   void insert_lead(int side);

@@ -178,6 +178,12 @@ Scene make_scene(const Head& head, const Options& o, SceneIds& ids) {
   for (Index node : head.bridge) twins.push_back(head.pair[std::size_t(node)]);
   scene.constraints.tie("bridge", head.bridge, twins);
   hold_stem(head, o, scene.constraints);
+  if (!o.still.empty()) {
+    const int side = o.still == "left" ? left : right;
+    Indices all(std::size_t(head.brain.node_count()));
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = Index(i);
+    scene.constraints.fix("half held still", of_side(head, all, side));
+  }
   if (o.tether > 0.0) add_tether(head, o.tether, scene.constraints);
   add_contact(head, o, scene.constraints, ids);
   return scene;

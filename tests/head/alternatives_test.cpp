@@ -10,6 +10,7 @@ namespace {
 Options asked() {
   Options o = quiet_options();
   o.sides = "right";
+  o.tether = 0.0;   // the lead then keeps part of the shift
   o.right = o.left = "10mL";
   return o;
 }

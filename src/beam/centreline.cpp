@@ -130,6 +130,29 @@ Mat3x12 unit_tangent_derivative(const Beam& beam, const BeamState& state, const 
   return project * combined_derivative(beam, state, place.element, w);
 }
 
+// x moves its point in proportion; of exp(w) v the second-order term is w x (w x v) / 2.
+Mat12 position_hessian(const Beam& beam, const BeamState& state, const BeamPoint& place,
+                       const Vec3& force) {
+  const Weights w = weights(place.xi);
+  const double L = beam.element(place.element).length();
+  const auto i = std::size_t(place.element);
+  const auto turn = [&force](const Vec3& v) {
+    const Mat3 outer = force * v.transpose();
+    return Mat3(0.5 * (outer + outer.transpose()) - force.dot(v) * Mat3::Identity());
+  };
+  Mat12 H = Mat12::Zero();
+  H.block<3, 3>(3, 3) = w.da * L * turn(state.R[i].col(0));
+  H.block<3, 3>(9, 9) = w.db * L * turn(state.R[i + 1].col(0));
+  return H;
+}
+
+Vec3 curvature(const Beam& beam, const BeamState& state, const BeamPoint& place) {
+  const Vec3 first = combined(beam, state, place.element, first_derivative(place.xi));
+  const Vec3 second = combined(beam, state, place.element, second_derivative(place.xi));
+  const double squared = first.squaredNorm();
+  return (second - second.dot(first) / squared * first) / squared;
+}
+
 double curve_length(const Beam& beam, const BeamState& state, double from, double to) {
   constexpr double points[3] = {0.11270166537925831, 0.5, 0.88729833462074169};
   constexpr double shares[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};

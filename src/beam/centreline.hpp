@@ -22,6 +22,11 @@ Vec3 unit_tangent(const Beam& beam, const BeamState& state, const BeamPoint& pla
 // Derivatives with respect to the 12 dofs of the element (nodes `element` and `element + 1`).
 Mat3x12 position_derivative(const Beam& beam, const BeamState& state, const BeamPoint& place);
 Mat3x12 unit_tangent_derivative(const Beam& beam, const BeamState& state, const BeamPoint& place);
+// Second derivatives of force . position at a place that stays (12 x 12), rotations as exp(w) R.
+Mat12 position_hessian(const Beam& beam, const BeamState& state, const BeamPoint& place,
+                       const Vec3& force);
+// Derivative of the unit tangent by the length of the curve, 1/mm.
+Vec3 curvature(const Beam& beam, const BeamState& state, const BeamPoint& place);
 
 // Length of the deformed curve between two rest arc lengths, mm.
 double curve_length(const Beam& beam, const BeamState& state, double from, double to);

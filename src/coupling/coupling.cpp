@@ -136,6 +136,41 @@ void Coupling::add_forces(const std::vector<CouplingRow>& rows,
   }
 }
 
+// With g = n . (x - c(q)) at the foot of x and the tie closed, to second order along the steps that keep it
+// closed: d2g = -2 (n . dt) ds - (n . c_ss) ds^2 - n . d2c, where ds = t . (dx - dc) moves the foot and
+// d2c is that of the section at a fixed place. An anchored section has the last term alone.
+std::vector<TieTurn> Coupling::turns(const std::vector<CouplingRow>& rows,
+                                     const std::vector<DeviceMotion>& motions) const {
+  std::vector<TieTurn> turns;
+  for (std::size_t r = 0; r + 1 < rows.size(); ++r) {
+    const CouplingRow &first = rows[r], &second = rows[r + 1];
+    if (first.kind != RowKind::across || first.axis != 0) continue;   // the second one follows it
+    const InsertedDevice& device = m_devices[first.device];
+    const BeamState& state = motions[first.device].beam;
+    const Vec3 force = multiplier_of(motions[first.device], first) * first.direction +
+                       multiplier_of(motions[first.device], second) * second.direction;
+    TieTurn turn{first, Eigen::VectorXd::Zero(device.beam.dof_count()),
+                 force.dot(brainshift::curvature(device.beam, state, first.place))};
+    turn.slip.direction = unit_tangent(device.beam, state, first.place);
+    turn.turn.segment<12>(6 * first.place.element) =
+        unit_tangent_derivative(device.beam, state, first.place).transpose() * force;
+    hold(first.device, state, turn.turn);
+    if (turn.turn.squaredNorm() > 0.0) turns.push_back(std::move(turn));
+  }
+  return turns;
+}
+
+void Coupling::add_tangent(const std::vector<CouplingRow>& rows,
+                           const std::vector<DeviceMotion>& motions, std::size_t d,
+                           BlockTridiagonal& K) const {
+  const Beam& beam = m_devices[d].beam;
+  for (const CouplingRow& row : rows) {
+    if (row.device != d) continue;
+    const Vec3 force = multiplier_of(motions[d], row) * row.direction;
+    K.add_element(row.place.element, position_hessian(beam, motions[d].beam, row.place, force));
+  }
+}
+
 // The spin of a hinged anchor is held about the tangent it has now. A round wire turned about itself
 // is the same wire, so that this hold carries nothing; one about an axis fixed in space would hold
 // part of the slope, and let go of it only as the whole wire spins.

@@ -39,6 +39,15 @@ double multiplier_of(const DeviceMotion& motion, const CouplingRow& row);
 
 using DeviceVectors = std::vector<Eigen::VectorXd>;   // 6N per device
 
+// How the force of the ties at a path point turns: with f that force on the tissue, a = f . dt the turn of
+// the tangent towards it and b the slip of the point along the device, the energy's second derivative
+// has 2 a b + (f . curvature) b^2 besides the device's own part.
+struct TieTurn {
+  CouplingRow slip;      // its direction is the tangent: the gradients of b
+  Eigen::VectorXd turn;  // gradient of a on the dofs of the device
+  double curvature;      // mN/mm
+};
+
 class Coupling {
  public:
   Coupling(const Mesh& mesh, const std::vector<InsertedDevice>& devices, const Points& start);
@@ -58,6 +67,13 @@ class Coupling {
   Eigen::VectorXd tissue_gradient(const CouplingRow& row, const Blocks& blocks) const;
   Eigen::VectorXd device_gradient(const CouplingRow& row,
                                   const std::vector<DeviceMotion>& motions) const;
+
+  // Second derivatives of the rows with the multipliers of `motions`: those that couple tissue and
+  // device, and those on a device alone (added to K).
+  std::vector<TieTurn> turns(const std::vector<CouplingRow>& rows,
+                             const std::vector<DeviceMotion>& motions) const;
+  void add_tangent(const std::vector<CouplingRow>& rows, const std::vector<DeviceMotion>& motions,
+                   std::size_t d, BlockTridiagonal& K) const;
 
   // Takes what is held of device d out of a vector, or a matrix, on its dofs.
   void hold(std::size_t d, const BeamState& state, Eigen::VectorXd& v) const;

@@ -57,6 +57,7 @@ class Newton {
     std::vector<double> multipliers;    // per contact row
     DeviceVectors dq;                   // on the dofs of each device
     Eigen::VectorXd coupling;           // multiplier per coupling row
+    Eigen::VectorXd pushed;             // those, and the forces of ties that turn
     double slope = 0.0;                 // force . step: what the energy falls by, to first order
     double predicted = 0.0;             // fall of the merit to first order, rows included
     double weight = 0.0;                // mN; of open ties in the merit

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/LU>
+
 #include "brainshift/error.hpp"
 #include "brainshift/mcp.hpp"
 #include "stepper/newton.hpp"
@@ -89,6 +91,7 @@ bool Newton::factorise_devices() {
       Eigen::VectorXd gradient;
       BlockTridiagonal K(beam.node_count());
       beam.tangent(m_state.devices[d].beam, gradient, K);
+      if (!m_definite) m_coupling.add_tangent(m_couplings, m_state.devices, d, K);
       for (Index i = 0; i < beam.node_count(); ++i) {
         m_proximal[d].segment<3>(6 * i).setConstant(shift);
         m_proximal[d].segment<3>(6 * i + 3).setConstant(shift * size * size);
@@ -104,22 +107,91 @@ bool Newton::factorise_devices() {
   return true;
 }
 
-// The linearised problem of tissue, devices and rows, docs/theory.md (18).
+// The linearised problem of tissue, devices and rows, docs/theory.md (18). Behind the `count` rows stand
+// two columns for each tie that turns (20): its turn and its slip, with forces that are eliminated.
 struct Newton::Coupled {
-  Eigen::MatrixXd Z;                 // A^-1 C: motions of the tissue by its rows, one per column
-  std::vector<Eigen::MatrixXd> D, Y; // per device: gradients of the rows, B^-1 D
-  Eigen::MatrixXd W;
+  Eigen::Index count;                // of rows
+  std::vector<TieTurn> turns;
+  Eigen::MatrixXd C;                 // gradients on the tissue, one per column
+  Eigen::MatrixXd Z;                 // A^-1 C: motions of the tissue
+  std::vector<Eigen::MatrixXd> D, Y; // per device: gradients, B^-1 D
+  Eigen::MatrixXd W;                 // C^T Z + sum D^T Y
   Eigen::VectorXd q;                 // without the devices' own steps
-  Eigen::VectorXd lower, upper;
-  Eigen::MatrixXd C;
+  Eigen::VectorXd lower, upper;      // of the rows
+
+  // Of the turns: forces = -given^-1 (q + W rows), the rows' problem without them, and back.
+  Eigen::PartialPivLU<Eigen::MatrixXd> given;
+  Eigen::MatrixXd rows_alone;        // W of the rows, the turns eliminated
+
+  Eigen::Index extra() const { return 2 * Eigen::Index(turns.size()); }
+  void eliminate_turns();
+  void drop_turns();
+  Eigen::VectorXd alone(const Eigen::VectorXd& all) const;
+  Eigen::VectorXd with_turns(const Eigen::VectorXd& rows, const Eigen::VectorXd& all) const;
 };
+
+// The quadratic form 2 a b + k b^2 of a turn is U S U^T with S = (0 1; 1 k); its force z = -S U^T d obeys
+// U^T d + S^-1 z = 0, S^-1 = (-k 1; 1 0).
+void Newton::Coupled::eliminate_turns() {
+  rows_alone = W.topLeftCorner(count, count);
+  if (turns.empty()) return;
+  Eigen::MatrixXd own = W.bottomRightCorner(extra(), extra());
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    const auto a = 2 * Eigen::Index(i), b = a + 1;
+    own(a, a) -= turns[i].curvature;
+    own(a, b) += 1.0;
+    own(b, a) += 1.0;
+  }
+  given.compute(own);
+  rows_alone -= W.topRightCorner(count, extra()) * given.solve(W.bottomLeftCorner(extra(), count));
+  // A row that pulls when it is pushed: the energy has no minimum there, and the step none to find.
+  constexpr double least = 0.1;
+  const bool sound = rows_alone.allFinite() &&
+                     (rows_alone.diagonal().array() >= least * W.diagonal().head(count).array()).all();
+  if (!sound) drop_turns();
+}
+
+// What is left is positive semidefinite and converges all the same, if only linearly.
+void Newton::Coupled::drop_turns() {
+  turns.clear();
+  const auto cut = [this](Eigen::MatrixXd& columns) { columns = columns.leftCols(count).eval(); };
+  cut(C);
+  cut(Z);
+  for (Eigen::MatrixXd& part : D) cut(part);
+  for (Eigen::MatrixXd& part : Y) cut(part);
+  W = W.topLeftCorner(count, count).eval();
+  q = q.head(count).eval();
+  rows_alone = W;
+}
+
+// The right side of the rows without the turns, from that of all.
+Eigen::VectorXd Newton::Coupled::alone(const Eigen::VectorXd& all) const {
+  if (turns.empty()) return all;
+  return all.head(count) - W.topRightCorner(count, extra()) * given.solve(all.tail(extra()));
+}
+
+// Multipliers of the rows, and behind them the forces of the turns.
+Eigen::VectorXd Newton::Coupled::with_turns(const Eigen::VectorXd& rows,
+                                            const Eigen::VectorXd& all) const {
+  if (turns.empty()) return rows;
+  Eigen::VectorXd z(count + extra());
+  z << rows, -given.solve(all.tail(extra()) + W.bottomLeftCorner(extra(), count) * rows);
+  return z;
+}
 
 void Newton::add_devices(Coupled& problem) const {
   for (std::size_t d = 0; d < m_device_load.size(); ++d) {
     Eigen::MatrixXd D = Eigen::MatrixXd::Zero(m_device_load[d].size(), problem.q.size());
-    for (Eigen::Index r = 0; r < problem.q.size(); ++r) {
+    for (Eigen::Index r = 0; r < problem.count; ++r) {
       const CouplingRow& row = m_couplings[std::size_t(r)];
       if (row.device == d) D.col(r) = m_coupling.device_gradient(row, m_state.devices);
+    }
+    for (std::size_t i = 0; i < problem.turns.size(); ++i) {
+      const TieTurn& turn = problem.turns[i];
+      if (turn.slip.device != d) continue;
+      const Eigen::Index a = problem.count + 2 * Eigen::Index(i);
+      D.col(a) = turn.turn;
+      D.col(a + 1) = m_coupling.device_gradient(turn.slip, m_state.devices);
     }
     Eigen::MatrixXd Y = D;
     m_device_factors[d].solve(Y);
@@ -137,20 +209,23 @@ bool Newton::solve_rows(const Coupled& problem, const DeviceVectors& loads, Step
     m_device_factors[d].solve(step.dq[d]);
     q += problem.D[d].transpose() * step.dq[d];
   }
-  step.coupling.resize(q.size());
-  if (q.size() == 0) return true;
-  Eigen::MatrixXd W = problem.W;
-  Eigen::VectorXd lower = problem.lower, upper = problem.upper;
-  take_out_held_rows(problem.C, m_cache.stiffness.mean_diagonal(), W, q, lower, upper);
+  step.coupling.resize(problem.count);
+  step.pushed = Eigen::VectorXd::Zero(q.size());
+  if (problem.count == 0) return true;
+  Eigen::MatrixXd W = problem.rows_alone;
+  Eigen::VectorXd right = problem.alone(q), lower = problem.lower, upper = problem.upper;
+  take_out_held_rows(problem.C.leftCols(problem.count), m_cache.stiffness.mean_diagonal(), W, right,
+                     lower, upper);
   McpOptions options;
   options.noise = gap_rounding * m_eq.mesh().nodes().cwiseAbs().maxCoeff();
-  const McpSolution found = solve_mcp(W, q, lower, upper, options);
+  const McpSolution found = solve_mcp(W, right, lower, upper, options);
   m_report.coupling_rank = found.report.rank;
   m_report.coupling_unique = found.report.unique;
   if (found.report.status != McpStatus::solved) return false;
   step.coupling = found.z;
-  for (std::size_t d = 0; d < loads.size(); ++d) step.dq[d] += problem.Y[d] * found.z;
-  return true;
+  step.pushed = problem.with_turns(found.z, q);
+  for (std::size_t d = 0; d < loads.size(); ++d) step.dq[d] += problem.Y[d] * step.pushed;
+  return step.pushed.allFinite();
 }
 
 // Takes the proximal term P out of the step again: (B + P) dq' = load + P dq + D multiplier, from dq
@@ -186,13 +261,16 @@ void Newton::proximal_steps(const Coupled& problem, Step& step) {
 // W multiplier + (gap + rows . free step) = w,  W = C A^-1 C^T + D B^-1 D^T.
 void Newton::couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step& step,
                     Eigen::VectorXd& pushed) {
-  const auto count = Eigen::Index(m_couplings.size());
-  Eigen::MatrixXd forces(rhs.size(), 1 + count);
-  forces.col(0) = rhs;
   Coupled problem;
-  problem.q.resize(count);
+  const auto count = problem.count = Eigen::Index(m_couplings.size());
+  if (!m_definite) problem.turns = m_coupling.turns(m_couplings, m_state.devices);
+  const auto turns = Eigen::Index(problem.turns.size());
+  problem.q = Eigen::VectorXd::Zero(count + 2 * turns);
   problem.lower.resize(count);
   problem.upper.resize(count);
+  // The turns of devices do not touch the tissue: their columns are zero and need no solve.
+  Eigen::MatrixXd forces(rhs.size(), 1 + count + turns);
+  forces.col(0) = rhs;
   for (Eigen::Index r = 0; r < count; ++r) {
     const CouplingRow& row = m_couplings[std::size_t(r)];
     forces.col(1 + r) = m_coupling.tissue_gradient(row, m_eq.blocks());
@@ -200,20 +278,32 @@ void Newton::couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step
     problem.lower[r] = row.lower;
     problem.upper[r] = row.upper;
   }
+  for (Eigen::Index i = 0; i < turns; ++i) {
+    forces.col(1 + count + i) =
+        m_coupling.tissue_gradient(problem.turns[std::size_t(i)].slip, m_eq.blocks());
+  }
   const Eigen::MatrixXd moved = solve_tissue(reduction, forces);
   const Eigen::VectorXd free_dx = moved.col(0) + reduction.particular();
-  problem.C = forces.rightCols(count);
-  problem.Z = moved.rightCols(count);
+  const auto arrange = [&](const Eigen::MatrixXd& columns) {
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rhs.size(), count + 2 * turns);
+    all.leftCols(count) = columns.middleCols(1, count);
+    for (Eigen::Index i = 0; i < turns; ++i) all.col(count + 2 * i + 1) = columns.col(1 + count + i);
+    return all;
+  };
+  problem.C = arrange(forces);
+  problem.Z = arrange(moved);
   problem.W = problem.C.transpose() * problem.Z;
   problem.q += problem.C.transpose() * free_dx;
   add_devices(problem);
+  problem.eliminate_turns();
   if (!solve_rows(problem, m_device_load, step)) {
     step.coupling.setConstant(std::nan(""));
+    step.pushed.setConstant(std::nan(""));
   } else if (!m_definite) {
     proximal_steps(problem, step);
   }
-  step.dx = free_dx + problem.Z * step.coupling;
-  pushed += problem.C * step.coupling;
+  step.dx = free_dx + problem.Z * step.pushed;
+  pushed += problem.C * step.pushed;
 }
 
 // First-order fall of the merit E + sum bound |slip| + weight * sum |open tie|.

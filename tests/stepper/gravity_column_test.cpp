@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "support/scenes.hpp"
+#include "tissue/tissue.hpp"
 
 namespace brainshift {
 namespace {
@@ -96,6 +97,23 @@ TEST(GravityColumn, FarBeyondTheLimitPointNothingIsNaN) {
   EXPECT_FALSE(report.converged());
   EXPECT_TRUE(stepper.displacement().isZero(0.0));
   EXPECT_TRUE(std::isfinite(report.residual));
+}
+
+// Pulled so hard that the first Newton step, of stretch 1e78, has an energy beyond double (it grows
+// with the fourth power of the stretch): no iterate may be there.
+TEST(GravityColumn, AStepOfInfiniteEnergyIsNeverTaken) {
+  Scene scene = column(Law::st_venant_kirchhoff, 1.0, 4);
+  scene.gravity *= -1e78;
+  const Tissue tissue(scene.mesh, scene.materials);
+  Stepper stepper(scene);
+  stepper.begin_static();
+  while (stepper.phase() == StepPhase::begun || stepper.phase() == StepPhase::updated) {
+    ASSERT_TRUE(std::isfinite(tissue.energy(stepper.iterate())));
+    stepper.linearise();
+    stepper.solve();
+    stepper.update();
+  }
+  EXPECT_EQ(stepper.phase(), StepPhase::failed);
 }
 
 TEST(GravityColumn, LateralConfinementHasNoLimitPointForStableNeoHookean) {

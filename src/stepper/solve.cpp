@@ -74,8 +74,9 @@ bool Solve::halve_load_step(Newton::Outcome outcome) {
                      " of the change of load; ";
   m_report.message += m_euler ? "a shorter time step may find it, or a longer one where forces are "
                                 "below what the rounding of positions makes of inertia"
-                              : "a law without limit point (stable_neo_hookean), another support "
-                                "or the contact with the skull may be what the scene lacks";
+                              : "a law without limit point (stable_neo_hookean, log_neo_hookean), "
+                                "another support or the contact with the skull may be what the "
+                                "scene lacks";
   return false;
 }
 

@@ -27,8 +27,7 @@ double minus_log(double x) {
   if (std::abs(x) > 0.1) return x - std::log1p(x);
   const double r = x / (2.0 + x), q = r * r;
   const double series =
-      1.0 / 3.0 +
-      q * (1.0 / 5.0 + q * (1.0 / 7.0 + q * (1.0 / 9.0 + q * (1.0 / 11.0 + q / 13.0))));
+      1.0 / 3.0 + q * (1.0 / 5.0 + q * (1.0 / 7.0 + q * (1.0 / 9.0 + q * (1.0 / 11.0 + q / 13.0))));
   return r * (x - 2.0 * q * series);
 }
 
@@ -38,8 +37,8 @@ double energy(const Lame& lame, const Mat3& G) {
   if (!has_energy(change)) return infinity;
   const double trace = G.trace(), log = std::log1p(change);
   const Mat3 strain = 0.5 * (G + G.transpose());
-  return lame.mu * (strain.squaredNorm() - 0.5 * trace * trace - G.determinant() +
-                    minus_log(change)) +
+  return lame.mu *
+             (strain.squaredNorm() - 0.5 * trace * trace - G.determinant() + minus_log(change)) +
          0.5 * lame.lambda * log * log;
 }
 

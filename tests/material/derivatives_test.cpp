@@ -1,8 +1,8 @@
 // Stress is the derivative of energy, tangent that of stress: central differences.
 // Step 1e-6 (of entries of order 1): truncation 1e-12, rounding 1e-10, so 1e-6 of the largest entry
-// (the bound asked for) cannot be met by accident. The derivatives of a law with logarithms grow with
-// powers of 1 / stretch: its step is 1e-5 of the smallest stretch, truncation 1e-10 of the entry; the
-// rounding of J, eps / 1e-3 in the flattest sample, becomes 1e-7 of it.
+// (the bound asked for) cannot be met by accident. The derivatives of a law with logarithms grow
+// with powers of 1 / stretch: its step is 1e-5 of the smallest stretch, truncation 1e-10 of the
+// entry; the rounding of J, eps / 1e-3 in the flattest sample, becomes 1e-7 of it.
 #include <gtest/gtest.h>
 
 #include "material/polar.hpp"

@@ -110,10 +110,10 @@ TEST(Digits, tiny_gradients_meet_hookes_law) {
     const double few = few_roundings(m);
     // coefficients of the second and third order, in units of the first: up to lambda / mu times ten
     const double order = 10.0 * (1.0 + m.lambda() / m.mu());
-    for (const double size : {1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-20}) {
+    for (const double size :
+         {1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-20}) {
       const Mat3 H = size * D, plus = m.stress(H), minus = m.stress(-H), linear = hooke.stress(H);
-      EXPECT_LE((0.5 * (plus - minus) - linear).norm(),
-                (few + order * size * size) * linear.norm())
+      EXPECT_LE((0.5 * (plus - minus) - linear).norm(), (few + order * size * size) * linear.norm())
           << to_string(m.law()) << " " << size;
       EXPECT_LE((plus + minus).norm(), (few + order * size) * linear.norm())
           << to_string(m.law()) << " " << size;

@@ -21,8 +21,8 @@ struct Inverted {
               Vec3(0, 0, -standard_gravity),
               {},
               {}} {
-    scene.constraints.fix("base",
-                          test::nodes_where(scene.mesh, [](const Vec3& x) { return x.z() == 0.0; }));
+    scene.constraints.fix(
+        "base", test::nodes_where(scene.mesh, [](const Vec3& x) { return x.z() == 0.0; }));
     state.u = Points::Zero(scene.mesh.node_count(), 3);
     const Indices middle =
         test::nodes_where(scene.mesh, [](const Vec3& x) { return x == Vec3(10, 10, 10); });

@@ -58,8 +58,9 @@ void Solve::refuse_start() {
   const double smallest = m_equilibrium.tissue().jacobians(m_balanced.u).minCoeff(&tet);
   m_report.status = Status::no_equilibrium;
   m_report.message = "the forces are not finite where the solve begins; the smallest det F is " +
-                     text(smallest) + ", of tet " + std::to_string(tet) +
-                     ", and log_neo_hookean has no energy where it is not positive";
+                     text(smallest) + ", of tet " + std::to_string(tet);
+  m_report.message += smallest > 0.0 ? "; loads or moduli may be beyond the range of double"
+                                     : ", and not every law has an energy there (log_neo_hookean)";
   m_phase = StepPhase::failed;
 }
 

@@ -112,7 +112,8 @@ int parse(int argc, char** argv, Options& o) {
   app.add_option("--gap", o.gap, "of fluid more between brain and skull, mm")
       ->capture_default_str()->check(CLI::Range(0.0, 20.0));
   app.add_option("--out", o.out, "folder for results")->capture_default_str();
-  app.add_option("--law", o.law, "linear, corotational, st_venant_kirchhoff or stable_neo_hookean")
+  app.add_option("--law", o.law, "linear, corotational, st_venant_kirchhoff, stable_neo_hookean or "
+                 "log_neo_hookean")
       ->capture_default_str();
   app.add_option("--young", o.young, "Young's modulus of the brain, kPa")->capture_default_str();
   app.add_option("--poisson", o.poisson, "Poisson's ratio of the brain")->capture_default_str();

@@ -12,7 +12,8 @@ enum class Law {
   linear,               // small strain, Hooke; exact only for small rotations
   corotational,         // mu |F-R|^2 + lambda/2 tr(R^T F - I)^2, exact tangent
   st_venant_kirchhoff,  // quadratic in Green's strain; limit point at stretch 1/sqrt(3)
-  stable_neo_hookean    // Smith, de Goes, Kim 2018, without the log term; defined at J <= 0
+  stable_neo_hookean,   // Smith, de Goes, Kim 2018, without the log term; defined at J <= 0
+  log_neo_hookean       // mu/2 (I_C - 3) - mu ln J + lambda/2 ln^2 J; infinite at J <= 0
 };
 
 const char* to_string(Law law);
@@ -36,7 +37,8 @@ class Material {
   }
   double bulk() const { return m_young / (3.0 * (1.0 - 2.0 * m_poisson)); }
 
-  // Response to a displacement gradient G = dU/dX (3 x 3), F = I + G.
+  // Response to a displacement gradient G = dU/dX (3 x 3), F = I + G. Where a law has no energy
+  // (log_neo_hookean at det F <= 0) all answers are +infinity, so that no check can miss it.
   double energy(const Mat3& gradient) const;  // per rest volume, kPa
   Mat3 stress(const Mat3& gradient) const;    // first Piola-Kirchhoff P, kPa
   // dP/dF, 9 x 9, kPa; F and P as column-major vectors. `definite`: nearest positive semidefinite.

@@ -9,5 +9,6 @@ extern const LawFunctions linear_law;
 extern const LawFunctions corotational_law;
 extern const LawFunctions st_venant_kirchhoff_law;
 extern const LawFunctions stable_neo_hookean_law;
+extern const LawFunctions log_neo_hookean_law;
 
 }  // namespace brainshift

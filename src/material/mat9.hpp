@@ -39,11 +39,22 @@ inline void add_cofactor_derivative(const Mat3& m, double factor, Mat9& A) {
   }
 }
 
+// The second invariant of a matrix, (tr^2 - tr(m m)) / 2.
+inline double second_invariant(const Mat3& m) {
+  const double trace = m.trace();
+  return 0.5 * (trace * trace - m.cwiseProduct(m.transpose()).sum());
+}
+
 // det(I + G) - 1 without the cancellation of det(F) - 1.
 inline double volume_change(const Mat3& G) {
-  const double trace = G.trace();
-  const double second = 0.5 * (trace * trace - G.cwiseProduct(G.transpose()).sum());
-  return trace + second + G.determinant();
+  return G.trace() + second_invariant(G) + G.determinant();
+}
+
+// cof(I + G) - I = tr(G) I - G^T + cof G, without the cancellation of cof(F) - I.
+inline Mat3 cofactor_change(const Mat3& G) {
+  Mat3 c = cofactor(G) - G.transpose();
+  c.diagonal().array() += G.trace();
+  return c;
 }
 
 // Green's strain E = (F^T F - I) / 2, formed from G so that tiny strains keep their digits.

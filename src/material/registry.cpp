@@ -20,6 +20,7 @@ const Entry entries[] = {
     {Law::corotational, "corotational", nullptr, corotational_law},
     {Law::st_venant_kirchhoff, "st_venant_kirchhoff", "stvk", st_venant_kirchhoff_law},
     {Law::stable_neo_hookean, "stable_neo_hookean", "snh", stable_neo_hookean_law},
+    {Law::log_neo_hookean, "log_neo_hookean", "lnh", log_neo_hookean_law},
 };
 
 const Entry* find(Law law) {

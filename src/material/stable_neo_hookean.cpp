@@ -12,17 +12,13 @@ namespace brainshift {
 namespace {
 
 double energy(const Lame& lame, const Mat3& G) {
-  const double trace = G.trace();
-  const double second = 0.5 * (trace * trace - G.cwiseProduct(G.transpose()).sum());
   const double change = volume_change(G);
-  return lame.mu * (0.5 * G.squaredNorm() - second - G.determinant()) +
+  return lame.mu * (0.5 * G.squaredNorm() - second_invariant(G) - G.determinant()) +
          0.5 * (lame.lambda + lame.mu) * change * change;
 }
 
-// cof F = I + tr(G) I - G^T + cof G
 Mat3 stress_with_cofactor(const Lame& lame, const Mat3& G, double change, Mat3& cof) {
-  Mat3 cof_minus_one = cofactor(G) - G.transpose();
-  cof_minus_one.diagonal().array() += G.trace();
+  const Mat3 cof_minus_one = cofactor_change(G);
   cof = Mat3::Identity() + cof_minus_one;
   return lame.mu * (G - cof_minus_one) + (lame.lambda + lame.mu) * change * cof;
 }

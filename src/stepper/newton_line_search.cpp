@@ -4,6 +4,7 @@
 
 #include "stepper/newton.hpp"
 #include "stepper/stopwatch.hpp"
+#include "stepper/sufficient_decrease.hpp"
 
 namespace brainshift {
 
@@ -80,7 +81,7 @@ double Newton::search(const Step& step, MechanicalState& next) {
     // Rounding of energies, and of the gaps of ties that are as closed as they can be.
     const double noise = 1e-12 * (std::abs(energy0) + std::abs(energy1) + std::abs(work)) +
                          1e-13 * m_eq.mesh().diameter() * step.weight * double(m_couplings.size());
-    if (change <= -1e-4 * part * step.predicted + noise) {
+    if (sufficient_decrease(change, part * step.predicted, noise)) {
       m_active = touched;
       return part;
     }

@@ -4,7 +4,18 @@
 #include <string>
 #include <utility>
 
+#include "beam/text.hpp"
+
 namespace brainshift {
+namespace {
+
+bool all_finite(const Offset& offset) {
+  return offset.tissue.allFinite() &&
+         std::all_of(offset.devices.begin(), offset.devices.end(),
+                     [](const Eigen::VectorXd& force) { return force.allFinite(); });
+}
+
+}  // namespace
 
 Solve::Solve(Equilibrium equilibrium, const std::vector<InsertedDevice>& devices,
              MechanicalState start, const StepperOptions& options, FactorCache& cache,
@@ -20,6 +31,10 @@ Solve::Solve(Equilibrium equilibrium, const std::vector<InsertedDevice>& devices
       m_balanced(std::move(start)) {
   m_report.load_factor = 0.0;
   m_unbalanced = m_newton.unbalanced(m_balanced);
+  if (!all_finite(m_unbalanced)) {
+    refuse_start();
+    return;
+  }
   settle(begin_load_step());
   if (m_phase == StepPhase::updated) m_phase = StepPhase::begun;
 }
@@ -35,6 +50,19 @@ void Solve::solve() {
 }
 
 void Solve::update() { settle(m_newton.update()); }
+
+// No part of a load that is not finite can be let go, and no step be found from there.
+void Solve::refuse_start() {
+  m_newton.certify(m_balanced);
+  Eigen::Index tet = 0;
+  const double smallest = m_equilibrium.tissue().jacobians(m_balanced.u).minCoeff(&tet);
+  m_report.status = Status::no_equilibrium;
+  m_report.message = "the forces are not finite where the solve begins; the smallest det F is " +
+                     text(smallest) + ", of tet " + std::to_string(tet);
+  m_report.message += smallest > 0.0 ? "; loads or moduli may be beyond the range of double"
+                                     : ", and not every law has an energy there (log_neo_hookean)";
+  m_phase = StepPhase::failed;
+}
 
 Newton::Outcome Solve::begin_load_step() {
   m_next = std::min(1.0, m_reached + m_step);
@@ -74,8 +102,9 @@ bool Solve::halve_load_step(Newton::Outcome outcome) {
                      " of the change of load; ";
   m_report.message += m_euler ? "a shorter time step may find it, or a longer one where forces are "
                                 "below what the rounding of positions makes of inertia"
-                              : "a law without limit point (stable_neo_hookean), another support "
-                                "or the contact with the skull may be what the scene lacks";
+                              : "a law without limit point (stable_neo_hookean, log_neo_hookean), "
+                                "another support or the contact with the skull may be what the "
+                                "scene lacks";
   return false;
 }
 

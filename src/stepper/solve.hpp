@@ -37,6 +37,7 @@ class Solve {
   Equilibrium& equilibrium() { return m_equilibrium; }
 
  private:
+  void refuse_start();
   Newton::Outcome begin_load_step();
   void settle(Newton::Outcome outcome);
   bool halve_load_step(Newton::Outcome outcome);

@@ -19,10 +19,4 @@ struct Tet4 {
   }
 };
 
-// det(I + G) - 1 without losing the digits of a small G.
-inline double volume_change(const Mat3& g) {
-  const double tr = g.trace();
-  return tr + 0.5 * (tr * tr - (g * g).trace()) + g.determinant();
-}
-
 }  // namespace brainshift

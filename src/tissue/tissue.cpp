@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include "brainshift/error.hpp"
+#include "material/mat9.hpp"
 #include "material/registry.hpp"
 #include "threads/for_chunks.hpp"
 

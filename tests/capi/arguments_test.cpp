@@ -114,6 +114,15 @@ TEST_F(Arguments, ErrorsOfTheLibraryArriveWithTheirCulprit) {
   refused(brs_stepper_set_csf(w.stepper, 5, BRS_CSF_FULL, 0.0), BRS_ERROR_INDEX_OUT_OF_RANGE, "5");
 }
 
+TEST_F(Arguments, EveryLawTheHeaderNamesIsTaken) {
+  for (const char* law : {"linear", "corotational", "st_venant_kirchhoff", "stable_neo_hookean",
+                          "log_neo_hookean"}) {
+    brs_material material = tissue();
+    material.law = law;
+    EXPECT_EQ(brs_scene_set_material(w.scene, 0, &material), BRS_OK) << law;
+  }
+}
+
 TEST_F(Arguments, ASceneThatWasRefusedSomethingIsAsBefore) {
   w.good(w.solve_after_loss(5000.0));
   const std::vector<double> before = w.field(BRS_FIELD_DISPLACEMENT);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "brainshift/material.hpp"
 
@@ -49,6 +50,11 @@ const Uniaxial uniaxial_table[] = {
     {0.45, 0.9, Law::stable_neo_hookean, -0.11063810, 1.04822013},
     {0.45, 1.3, Law::stable_neo_hookean, 0.23952726, 0.88712020},
     {0.499, 0.7, Law::stable_neo_hookean, -0.44665345, 1.19471626},
+    {0.3, 0.5, Law::log_neo_hookean, -0.93535206, 1.21076739},
+    {0.45, 0.7, Law::log_neo_hookean, -0.43393876, 1.17085255},
+    {0.45, 0.9, Law::log_neo_hookean, -0.11071290, 1.04831325},
+    {0.45, 1.3, Law::log_neo_hookean, 0.23936327, 0.88746858},
+    {0.499, 0.7, Law::log_neo_hookean, -0.44665420, 1.19471692},
 };
 
 TEST(ClosedForm, uniaxial_stress) {
@@ -90,11 +96,68 @@ TEST(ClosedForm, simple_shear_of_st_venant_kirchhoff) {
   }
 }
 
+// Stretches (1, 1, l) and (s, s, s), and simple shear (J = 1, F^-T = I - shear e_y e_x^T), by hand.
+TEST(ClosedForm, log_neo_hookean_in_confined_stretch_volume_change_and_shear) {
+  const Material material(Law::log_neo_hookean, 6.0, 0.45, 0.0);
+  const double mu = material.mu(), lambda = material.lambda();
+  // The law sees l - 1 and forms J - 1 from it: J is good to some eps of 1.
+  const auto rounding = [](double J) { return 1e-14 + 1e-15 / J; };
+  for (const double l : {1e-6, 0.01, 0.3, 0.9, 1.5, 20.0}) {
+    const double log = std::log(l);
+    const double scale = (mu + lambda * (1.0 + std::abs(log))) * (l + 1.0 / l);
+    const Mat3 P = stress(material, l, 1.0);
+    EXPECT_NEAR(P(0, 0), mu * (l - 1.0 / l) + lambda * log / l, rounding(l) * scale) << l;
+    EXPECT_NEAR(P(1, 1), lambda * log, rounding(l) * lambda * (1.0 + std::abs(log))) << l;
+    EXPECT_NEAR(material.energy(Vec3(l - 1.0, 0.0, 0.0).asDiagonal()),
+                0.5 * mu * (l * l - 1.0) - mu * log + 0.5 * lambda * log * log,
+                rounding(l) * (mu + lambda) * (l * l + log * log))
+        << l;
+  }
+  for (const double s : {0.01, 0.3, 0.9, 1.1, 3.0}) {
+    const double log = 3.0 * std::log(s), J = s * s * s;
+    const double scale = (mu + lambda * (1.0 + std::abs(log))) * (s + 1.0 / s);
+    EXPECT_NEAR(stress(material, s, s)(1, 1), mu * (s - 1.0 / s) + lambda * log / s,
+                rounding(J) * scale)
+        << s;
+  }
+  for (const double shear : {1e-6, 0.1, 2.0}) {
+    Mat3 G = Mat3::Zero(), expected = Mat3::Zero();
+    G(0, 1) = shear;
+    expected(0, 1) = expected(1, 0) = mu * shear;
+    EXPECT_LE((material.stress(G) - expected).norm(), 1e-14 * mu * shear);
+  }
+}
+
+// The barrier: energy and stress grow beyond bounds as the volume vanishes, and stay infinite.
+TEST(ClosedForm, log_neo_hookean_never_lets_the_volume_vanish) {
+  const Material material(Law::log_neo_hookean, 6.0, 0.45, 0.0);
+  double energy = 0.0, pressure = 0.0;
+  for (const double l : {0.5, 0.1, 1e-3, 1e-6, 1e-12, 1e-15}) {
+    const Mat3 G = Vec3(0.0, 0.0, l - 1.0).asDiagonal();
+    EXPECT_GT(material.energy(G), energy) << l;
+    EXPECT_GT(-material.stress(G)(2, 2), pressure) << l;
+    EXPECT_TRUE(std::isfinite(material.energy(G)) && material.stress(G).allFinite()) << l;
+    EXPECT_TRUE(material.tangent(G, true).allFinite()) << l;
+    energy = material.energy(G);
+    pressure = -material.stress(G)(2, 2);
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const Mat3& G : {Mat3(Vec3(0.0, 0.0, -1.0).asDiagonal()), Mat3(-Mat3::Identity()),
+                        Mat3(Vec3(0.1, -0.2, -1.5).asDiagonal()), Mat3(-2.0 * Mat3::Identity())}) {
+    EXPECT_EQ(material.energy(G), infinity);
+    EXPECT_TRUE((material.stress(G).array() == infinity).all());
+    for (const bool definite : {false, true}) {
+      EXPECT_TRUE((material.tangent(G, definite).array() == infinity).all());
+    }
+  }
+}
+
 // A pressure p that follows the surface: P = -p s^2 on the rest area. nu = 0.45, p = 0.1 K.
 TEST(ClosedForm, follower_pressure_all_round) {
   const std::pair<Law, double> table[] = {{Law::st_venant_kirchhoff, 0.96722207},
                                           {Law::corotational, 0.96871942},
-                                          {Law::stable_neo_hookean, 0.96539973}};
+                                          {Law::stable_neo_hookean, 0.96539973},
+                                          {Law::log_neo_hookean, 0.96997687}};
   for (const auto& [law, expected] : table) {
     const Material material(law, 6.0, 0.45, 0.0);
     const double p = 0.1 * material.bulk();

@@ -47,6 +47,7 @@ TEST(Polar, survives_what_has_no_unique_rotation) {
 
 TEST(Polar, every_law_stays_finite_where_the_rotation_is_not_unique) {
   for (const Law law : all_laws) {
+    if (!allows_inversion(law)) continue;
     const Material material(law, 6.0, 0.45, 0.0);
     for (const Mat3& G : {Mat3(-Mat3::Identity()), Mat3(-2.0 * Mat3::Identity()),
                           Mat3(Vec3(0.3, -0.5, -1.5).asDiagonal())}) {

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "brainshift/material.hpp"
+#include "support/laws.hpp"
 
 namespace brainshift::test {
 
@@ -52,9 +53,13 @@ inline std::vector<Sample> samples() {
   return all;
 }
 
-constexpr Law all_laws[] = {Law::linear, Law::corotational, Law::st_venant_kirchhoff,
-                            Law::stable_neo_hookean};
-constexpr Law nonlinear_laws[] = {Law::corotational, Law::st_venant_kirchhoff,
-                                  Law::stable_neo_hookean};
+// Those at which the law has an energy.
+inline std::vector<Sample> samples(Law law) {
+  std::vector<Sample> all = samples();
+  if (allows_inversion(law)) return all;
+  const auto turned = [](const Sample& s) { return s.name == "flat" || s.name == "inverted"; };
+  all.erase(std::remove_if(all.begin(), all.end(), turned), all.end());
+  return all;
+}
 
 }  // namespace brainshift::test

@@ -1,6 +1,7 @@
 // One-sided contact from end to end: closed forms, balance of forces, complementarity.
 #include <gtest/gtest.h>
 
+#include "support/laws.hpp"
 #include "support/scenes.hpp"
 
 namespace brainshift {
@@ -46,8 +47,7 @@ void expect_complementary(const ContactState& c, double length, double force) {
 }
 
 TEST(Contact, MultipliersOfABlockOnAFloorCarryItsWeight) {
-  for (Law law :
-       {Law::linear, Law::corotational, Law::st_venant_kirchhoff, Law::stable_neo_hookean}) {
+  for (Law law : test::all_laws) {
     Scene scene = block_scene(law, 0.45);
     hold_sideways(scene);
     const ConstraintId floor =

@@ -1,6 +1,7 @@
 // Bodies in fluid, solved: reference balance, loss and restoration, levels, buoyancy.
 #include <gtest/gtest.h>
 
+#include "support/laws.hpp"
 #include "support/scenes.hpp"
 
 namespace brainshift {
@@ -33,8 +34,7 @@ TEST(BalancedScene, HasNoLoadAtFullAndDoesNotMove) {
 }
 
 TEST(BalancedScene, LosingFluidMovesTheTissueAndRestoringItBringsItBack) {
-  for (Law law :
-       {Law::linear, Law::corotational, Law::st_venant_kirchhoff, Law::stable_neo_hookean}) {
+  for (Law law : test::all_laws) {
     Stepper stepper(ball_in_fluid(law, true));
     stepper.csf().set_lost_volume(0, 5000.0);  // 5 mL
     SolveReport report = stepper.solve_static();

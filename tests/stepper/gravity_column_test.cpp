@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "support/scenes.hpp"
+#include "tissue/tissue.hpp"
 
 namespace brainshift {
 namespace {
@@ -98,10 +99,89 @@ TEST(GravityColumn, FarBeyondTheLimitPointNothingIsNaN) {
   EXPECT_TRUE(std::isfinite(report.residual));
 }
 
+// Pulled so hard that the first Newton step, of stretch 1e78, has an energy beyond double (it grows
+// with the fourth power of the stretch): no iterate may be there.
+TEST(GravityColumn, AStepOfInfiniteEnergyIsNeverTaken) {
+  Scene scene = column(Law::st_venant_kirchhoff, 1.0, 4);
+  scene.gravity *= -1e78;
+  const Tissue tissue(scene.mesh, scene.materials);
+  Stepper stepper(scene);
+  stepper.begin_static();
+  while (stepper.phase() == StepPhase::begun || stepper.phase() == StepPhase::updated) {
+    ASSERT_TRUE(std::isfinite(tissue.energy(stepper.iterate())));
+    stepper.linearise();
+    stepper.solve();
+    stepper.update();
+  }
+  EXPECT_EQ(stepper.phase(), StepPhase::failed);
+}
+
 TEST(GravityColumn, LateralConfinementHasNoLimitPointForStableNeoHookean) {
   Stepper stepper(column(Law::stable_neo_hookean, 0.4, 10));
   const SolveReport report = stepper.solve_static();
   EXPECT_TRUE(report.converged()) << report.message;
+}
+
+// P(l) = mu (l - 1/l) + lambda ln l / l of the vertical stretch l carries what stands above:
+// P(l(Z)) = -c M (1 - Z), and the top sinks by the mean of 1 - l.
+double log_neo_hookean_settlement(double c) {
+  const Material unit(Law::log_neo_hookean, young, poisson, 0.0);
+  const double mu = unit.mu(), lambda = unit.lambda(), modulus = lambda + 2.0 * mu;
+  constexpr int points = 2000;  // midpoint rule, error 1e-7
+  double sum = 0.0;
+  for (int i = 0; i < points; ++i) {
+    const double carried = c * modulus * (1.0 - (i + 0.5) / points);
+    double low = 1e-9, high = 1.0;  // P grows with l below l = e
+    for (int k = 0; k < 100; ++k) {
+      const double l = 0.5 * (low + high);
+      const double P = mu * (l - 1.0 / l) + lambda * std::log(l) / l;
+      (P < -carried ? low : high) = l;
+    }
+    sum += low - 1.0;
+  }
+  return sum / points;
+}
+
+TEST(GravityColumn, LogNeoHookeanSettlesByTheClosedFormAtAnyLoad) {
+  for (const double c : {0.1, 0.4, 2.0, 10.0}) {
+    Stepper stepper(column(Law::log_neo_hookean, c, 40));
+    const SolveReport report = stepper.solve_static();
+    ASSERT_TRUE(report.converged()) << c << ": " << report.message;
+    const double settled = log_neo_hookean_settlement(c);
+    // the bound of the table above, where the same layers carry an error of O(h^2)
+    EXPECT_NEAR(tip(stepper), settled, 2e-3 * std::abs(settled)) << c;
+    EXPECT_LE(report.residual, 1e-8);
+    EXPECT_GT(report.smallest_jacobian, 0.0);
+  }
+}
+
+// Loads under which the volume all but vanishes: balance, or a status that says there is none; and no
+// iterate on the way without volume or without a finite energy.
+TEST(GravityColumn, NoLoadMakesALogarithmicLawInvertOrNaN) {
+  for (const double c : {1e2, 1e4, 1e8, 1e16, 1e150}) {
+    const Scene scene = column(Law::log_neo_hookean, c, 5);
+    const Tissue tissue(scene.mesh, scene.materials);
+    Stepper stepper(scene);
+    stepper.begin_static();
+    while (stepper.phase() == StepPhase::begun || stepper.phase() == StepPhase::updated) {
+      ASSERT_GT(tissue.jacobians(stepper.iterate()).minCoeff(), 0.0) << c;
+      ASSERT_TRUE(std::isfinite(tissue.energy(stepper.iterate()))) << c;
+      stepper.linearise();
+      stepper.solve();
+      stepper.update();
+    }
+    const SolveReport& report = stepper.progress_report();
+    ASSERT_FALSE(std::isnan(report.residual)) << c;
+    if (stepper.phase() == StepPhase::converged) {
+      EXPECT_LE(report.residual, 1e-8) << c;
+      EXPECT_GT(report.smallest_jacobian, 0.0) << c;
+    } else {
+      EXPECT_FALSE(report.converged()) << c;
+      EXPECT_FALSE(report.message.empty()) << c;
+    }
+    stepper.reject();
+    EXPECT_TRUE(stepper.displacement().isZero(0.0)) << c;
+  }
 }
 
 }  // namespace

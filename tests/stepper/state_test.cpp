@@ -4,6 +4,7 @@
 #include <random>
 
 #include "brainshift/error.hpp"
+#include "support/laws.hpp"
 #include "support/scenes.hpp"
 
 namespace brainshift {
@@ -139,8 +140,7 @@ TEST(State, AFailedSolveLeavesNoTraceInTheNext) {
 }
 
 TEST(State, TheCertificateHoldsForEveryLaw) {
-  for (Law law :
-       {Law::linear, Law::corotational, Law::st_venant_kirchhoff, Law::stable_neo_hookean}) {
+  for (Law law : test::all_laws) {
     Scene scene = busy_scene();
     scene.materials = {{0, Material(law, 6.0, 0.45, test::tissue_density)}};
     Stepper stepper(scene);

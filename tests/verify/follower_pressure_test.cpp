@@ -45,6 +45,9 @@ TEST(FollowerPressure, Corotational) { EXPECT_NEAR(stretch(Law::corotational), 0
 TEST(FollowerPressure, StableNeoHookean) {
   EXPECT_NEAR(stretch(Law::stable_neo_hookean), 0.96539973, 1e-6);
 }
+TEST(FollowerPressure, LogNeoHookean) {
+  EXPECT_NEAR(stretch(Law::log_neo_hookean), 0.96997687, 1e-6);
+}
 TEST(FollowerPressure, LinearLawFeelsThePressureOnItsShrunkenFaces) {
   // Small strain with a following load: 3K(1 - s) = p s^2, between the dead load's 0.96666667 and 1.
   const double s = (-3.0 + std::sqrt(9.0 + 4.0 * 0.1 * 3.0)) / (2.0 * 0.1);

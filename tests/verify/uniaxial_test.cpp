@@ -86,7 +86,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Bar{Law::stable_neo_hookean, 0.45, 0.9, -0.11063810, 1.04822013},
                       Bar{Law::stable_neo_hookean, 0.45, 0.7, -0.43219061, 1.16933611},
                       Bar{Law::stable_neo_hookean, 0.45, 1.3, 0.23952726, 0.88712020},
-                      Bar{Law::stable_neo_hookean, 0.499, 0.7, -0.44665345, 1.19471626}));
+                      Bar{Law::stable_neo_hookean, 0.499, 0.7, -0.44665345, 1.19471626},
+                      Bar{Law::log_neo_hookean, 0.45, 0.7, -0.43393876, 1.17085255},
+                      Bar{Law::log_neo_hookean, 0.45, 1.3, 0.23936327, 0.88746858},
+                      Bar{Law::log_neo_hookean, 0.3, 0.5, -0.93535206, 1.21076739}));
 
 }  // namespace
 }  // namespace brainshift

@@ -183,7 +183,8 @@ BRS_API brs_status brs_scene_destroy(brs_scene* scene);
 
 typedef struct brs_material {
   int64_t struct_size;
-  const char* law; /* "linear", "corotational", "st_venant_kirchhoff", "stable_neo_hookean" */
+  const char* law; /* "linear", "corotational", "st_venant_kirchhoff", "stable_neo_hookean",
+                      "log_neo_hookean" */
   double young;    /* kPa, > 0 */
   double poisson;  /* -1 < poisson < 0.5 */
   double density;  /* kg/mm^3, >= 0 */

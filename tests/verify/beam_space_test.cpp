@@ -123,6 +123,30 @@ TEST(BeamBend45, TipDoesNotDependOnTheLoadSteps) {
   }
 }
 
+// Bending is taken in the axes of the mean section: where the two stiffnesses differ and the section
+// twists, and with it the torque along the element, order 2.
+TEST(BeamUnevenSection, OrderOfConvergence) {
+  BeamSection section = round_section(100.0, 1e7, 80.0);
+  section.bending_3 = 400.0;
+  const Vec3 force(0, 1.0, 1.0);
+  const auto tip = [&](Index elements) {
+    const Beam beam = straight_beam(10.0, elements, section);
+    BeamState state = beam.rest();
+    EXPECT_TRUE(solve_statics(beam, cantilever(beam, force), state).converged);
+    return tip_of(state);
+  };
+  // d2 and d3 are y and z: a force along y bends about d3, by the stiffness of the plane (d1, d2)
+  const ReissnerRod rod{
+      10.0, Vec3(1e-7, 0, 0),
+      Vec3(1.0 / section.torsion, 1.0 / section.bending_3, 1.0 / section.bending_2)};
+  const Vec3 shot = rod.tip(force, Vec3::Zero(), tip(32));
+  const Convergence found =
+      convergence(four_meshes(4), [&](Index n) { return (tip(n) - shot).norm(); });
+  found.print("uneven section, bent both ways");
+  EXPECT_NEAR(found.observed_order(), 2.0, order_tolerance);
+  EXPECT_LT(found.error.back(), 1e-4 * 10.0);
+}
+
 // Two forces in turn, in either order, and together: one equilibrium. Then both are taken away again.
 TEST(BeamPath, TipDoesNotDependOnTheOrderOfTheLoads) {
   const Beam beam = quarter_bend(16, bend_torsion, bend_shear);

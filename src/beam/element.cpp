@@ -88,7 +88,10 @@ T BeamElement::local_energy(const T& chord, const T* slopes, const T& twist, T& 
     const T g = mean[i] + gamma[i], linear = sheared[i] + gamma[i];
     energy += linear * linear * (6.0 * b.curvature);
     if (shear) {
-      const T stretched = chord * gamma[i] * (1.0 / m_chord_rest);
+      // Reissner's strains are the sine and cosine of the angle of shear, times the stretch
+      const T sine =
+          gamma[i] - (gamma[0] * gamma[0] + gamma[1] * gamma[1]) * gamma[i] * (1.0 / 6.0);
+      const T stretched = chord * sine * (1.0 / m_chord_rest);
       strain -= gamma[i] * gamma[i] * 0.5;
       energy += stretched * stretched * (6.0 * b.curvature / b.phi);
     }

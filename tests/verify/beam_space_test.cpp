@@ -123,6 +123,26 @@ TEST(BeamBend45, TipDoesNotDependOnTheLoadSteps) {
   }
 }
 
+// Soft against shear, 5 % of it: the strain is the sine of the angle, not the angle itself, or short
+// elements would end at another tip.
+TEST(BeamShear, LargeShearMeetsReissnersStrains) {
+  BeamSection section = round_section(100.0, 1e7, 100.0);
+  section.shear = 100.0;
+  const Vec3 force(0, 5.0, 0);
+  const auto tip = [&](Index elements) {
+    const Beam beam = straight_beam(10.0, elements, section);
+    BeamState state = beam.rest();
+    EXPECT_TRUE(solve_statics(beam, cantilever(beam, force), state).converged);
+    return tip_of(state);
+  };
+  const ReissnerRod rod{10.0, Vec3(1e-7, 0.01, 0.01), Vec3(0.01, 0.01, 0.01)};
+  const Vec3 shot = rod.tip(force, Vec3::Zero(), tip(16));
+  const Convergence found =
+      convergence(four_meshes(16), [&](Index n) { return (tip(n) - shot).norm(); });
+  found.print("straight, large shear");
+  EXPECT_NEAR(found.observed_order(), 2.0, order_tolerance);
+}
+
 // Bending is taken in the axes of the mean section: where the two stiffnesses differ and the section
 // twists, and with it the torque along the element, order 2.
 TEST(BeamUnevenSection, OrderOfConvergence) {

@@ -149,6 +149,7 @@ TEST(RandomProblems, spoilt_in_every_way_at_once) {
 TEST(RandomProblems, inconsistent_ties_are_named_in_any_units) {
   std::mt19937 generator(28);
   std::uniform_real_distribution<double> exponent(-6.0, 6.0);
+  int unsolved = 0, unproved = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const Eigen::Index n = 5 + trial % 15, rank = n;
     MatrixXd H = random_matrix(n, rank, generator);
@@ -169,17 +170,31 @@ TEST(RandomProblems, inconsistent_ties_are_named_in_any_units) {
     Case c{d.asDiagonal() * known.c.M * d.asDiagonal(), known.c.q.cwiseProduct(d),
            known.c.lower.cwiseProduct(inverse), known.c.upper.cwiseProduct(inverse)};
     const Indices culprits{std::min(first, second), std::max(first, second)};
-    for (const McpMethod method : {McpMethod::automatic, McpMethod::newton}) {
+    for (const McpMethod method : exact_methods) {
       SCOPED_TRACE(name(method) + " trial " + std::to_string(trial));
-      EXPECT_EQ(solve(c, method).report.status, McpStatus::solved);
+      // pivoting alone does not always get through dependent ties, but never claims what is not so
+      const bool may_stop = method == McpMethod::pivoting;
+      const McpStatus closed = solve(c, method).report.status;
+      if (may_stop && closed == McpStatus::not_converged) {
+        ++unsolved;
+      } else {
+        EXPECT_EQ(closed, McpStatus::solved);
+      }
       Case open = c;
       open.q[second] += 0.1 * d[second];
       const McpSolution s = solve(open, method);
+      EXPECT_TRUE(s.z.allFinite());
+      if (may_stop && s.report.status == McpStatus::not_converged) {
+        ++unproved;
+        continue;
+      }
       EXPECT_EQ(s.report.status, McpStatus::infeasible) << s.report.message;
       EXPECT_EQ(s.report.conflict, culprits);
-      EXPECT_TRUE(s.z.allFinite());
     }
   }
+  std::printf(
+      "ties given twice, pivoting alone, of 60: %d consistent unsolved, %d others unproved\n",
+      unsolved, unproved);
 }
 
 TEST(RandomProblems, a_diagonal_over_twelve_decades_keeps_small_forces_right) {

@@ -9,7 +9,8 @@ Usage: cmake/install-deps.sh [GROUP]...
 Groups (default: core):
   core   compiler, CMake, Ninja, Eigen, SuiteSparse, METIS, a serial OpenBLAS, and the libraries of
          the io target and the examples
-  test   GoogleTest; Python with numpy and VTK for checks against VTK
+  test   GoogleTest; Python with numpy and VTK for checks against VTK; where it can be had,
+         Siconos for a cross-check of complementarity problems
   data   what examples/head needs to make the head anew: volumes, CGAL, Python packages
   docs   what draws pictures and charts: VTK, matplotlib, a virtual X server
 
@@ -66,6 +67,13 @@ xauth|command:xauth|xauth
 libgl1-mesa-dri|-|a software OpenGL
 END
       ;;
+  esac
+}
+
+# The same for what a group can do without: tests that need it are skipped, and say so.
+optional_of() {
+  case "$1" in
+    test) echo 'libsiconos-numerics-dev|header:siconos/SiconosConfig.h|Siconos' ;;
   esac
 }
 
@@ -130,6 +138,29 @@ apt_install() {
   apt install --no-install-recommends "$@"
 }
 
+may_install() { [ "$(id -u)" -eq 0 ] || sudo -n true 2>/dev/null; }
+
+# Never asks for a password, never fails. Siconos' BLAS is any OpenBLAS: the serial one is named
+# along with it, or apt would add a threaded one.
+install_optional() {
+  local group line package probe what
+  for group in "$@"; do
+    for line in $(optional_of "$group"); do
+      IFS='|' read -r package probe what <<<"$line"
+      if on_debian; then
+        [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ] || continue
+        if apt_knows "$package" && may_install; then
+          echo "install-deps: installing $package (optional)"
+          if apt_install libopenblas0-serial "$package"; then continue; fi
+        fi
+      elif is_there "$probe"; then
+        continue
+      fi
+      echo "install-deps: $what ($package) is not there; tests that need it are skipped" >&2
+    done
+  done
+}
+
 # CHOLMOD calls whatever libblas.so.3 is. The library threads over bodies and elements itself, and
 # its results are bit-identical only with a BLAS that does not: Debian's alternatives prefer
 # OpenBLAS to the reference BLAS, but a threaded OpenBLAS to the serial one.
@@ -176,6 +207,7 @@ main() {
   else
     echo "install-deps: $*: all installed"
   fi
+  install_optional "$@"
   case " $* " in *" core "*) if on_debian; then report_blas; fi ;; esac
 }
 

@@ -27,8 +27,8 @@ BeamElement::BeamElement(const BeamSection& section, const ElementPose& rest) : 
   for (int i = 0; i < 2; ++i) {
     Bending& b = m_bending[i];
     b.curvature = stiffness[i] / m_length;
-    b.phi = 12.0 * stiffness[i] / (section.shear * m_length * m_length);  // 0 without shear
-    b.mean = 12.0 * b.curvature / ((1.0 + b.phi) * (1.0 + b.phi));
+    b.phi = 12.0 * stiffness[i] / (section.shear * m_length * m_length);
+    if (b.phi < 1e-20) b.phi = 0.0;  // no shear: far below rounding, and 1/phi must not overflow
   }
   const double n2 = -m_bending[1].difference_rest, n3 = m_bending[0].difference_rest;
   m_bubble = 0.5 / (12.0 * section.torsion / m_length + m_bending[0].curvature * n2 * n2 +
@@ -37,16 +37,29 @@ BeamElement::BeamElement(const BeamSection& section, const ElementPose& rest) : 
                                   m_bending[1].mean_rest * m_bending[0].difference_rest);
 }
 
+// In a bent element the torque does work on shear, through gamma x d in the torsion: the curvature
+// changes along a bent rod by torque as well as by shear force (balance of moments m' + r' x n = 0,
+// Antman, Nonlinear Problems of Elasticity, chapter 8). The energy is least as a function of gamma at
+//   12 EI/L (s_m - rest + gamma) + GA L gamma + torque (d_3, -d_2) = 0.
+// Without the last term the shear of a rod that is bent and twisted is wrong by its torque times
+// curvature over GA, on any mesh of elements longer than (12 EI/GA)^1/2.
+template <class T>
+void BeamElement::add_shear_of_torque(const T& torque, const T* difference, T* gamma) const {
+  const auto give = [](const Bending& b) { return b.phi / ((1.0 + b.phi) * 12.0 * b.curvature); };
+  gamma[0] -= torque * difference[1] * give(m_bending[0]);
+  gamma[1] += torque * difference[0] * give(m_bending[1]);
+}
+
 // The deflection between the ends is the cubic of a beam with shear; s are the slopes of the
 // *sections*, g = s + gamma those of the centreline. With mean m and difference d of the ends:
 //   strain  = chord/L + sum (g_m^2/5 + d^2/12)/2 - gamma^2/2, against rest
 //   torsion = twist + (s_m x d)/2 + gamma x d, against rest
-//   gamma   = -phi/(1+phi) (s_m - rest)
+//   gamma   = -phi/(1+phi) (s_m - rest), then the part of the torque (add_shear_of_torque)
 // Rest curvature turns with the sections: twisted by t more than at rest, an element has the rest
 // slopes d (1 - t^2/24) and s_m + t (d1 x d)/12.
 template <class T>
 T BeamElement::local_energy(const T& chord, const T* slopes, const T& twist, T& strain) const {
-  T mean[2], difference[2], bent[2], gamma[2] = {0.0, 0.0};
+  T mean[2], difference[2], bent[2], sheared[2], gamma[2] = {0.0, 0.0};
   strain = (chord - m_chord_rest) * (1.0 / m_length);
   T energy = 0.0;
   const double rest_turned[2] = {-m_bending[1].difference_rest, m_bending[0].difference_rest};
@@ -55,29 +68,39 @@ T BeamElement::local_energy(const T& chord, const T* slopes, const T& twist, T& 
     mean[i] = (slopes[i] + slopes[2 + i]) * 0.5;
     difference[i] = slopes[2 + i] - slopes[i];
     bent[i] = difference[i] - b.difference_rest;
-    T sheared = mean[i] - b.mean_rest;
+    sheared[i] = mean[i] - b.mean_rest;
     if (m_curved) {
       bent[i] +=
           (twist * twist - m_seen_twist_rest * m_seen_twist_rest) * (b.difference_rest / 24.0);
-      sheared -= (twist - m_seen_twist_rest) * (rest_turned[i] / 12.0);
+      sheared[i] -= (twist - m_seen_twist_rest) * (rest_turned[i] / 12.0);
     }
-    T g = mean[i];
-    if (b.phi == 0.0) {
-      energy += sheared * sheared * (0.5 * b.mean);
-    } else {
-      const T stretch = chord * (1.0 / m_chord_rest);
-      gamma[i] = sheared * (-b.phi / (1.0 + b.phi));
-      g += gamma[i];
+    if (b.phi > 0.0) gamma[i] = sheared[i] * (-b.phi / (1.0 + b.phi));
+  }
+  const bool shear = m_bending[0].phi > 0.0;
+  const double torsion_stiffness = m_section.torsion / m_length;
+  const auto torsion = [&] {
+    const T x = mean[0] * 0.5 + gamma[0], y = mean[1] * 0.5 + gamma[1];
+    return twist + x * difference[1] - y * difference[0] - m_twist_rest;
+  };
+  if (shear) add_shear_of_torque(torsion() * torsion_stiffness, difference, gamma);
+  for (int i = 0; i < 2; ++i) {
+    const Bending& b = m_bending[i];
+    const T g = mean[i] + gamma[i], linear = sheared[i] + gamma[i];
+    energy += linear * linear * (6.0 * b.curvature);
+    if (shear) {
+      // Reissner's strains are the sine and cosine of the angle of shear, times the stretch
+      const T sine =
+          gamma[i] - (gamma[0] * gamma[0] + gamma[1] * gamma[1]) * gamma[i] * (1.0 / 6.0);
+      const T stretched = chord * sine * (1.0 / m_chord_rest);
       strain -= gamma[i] * gamma[i] * 0.5;
-      energy += sheared * sheared * (stretch * stretch * b.phi + 1.0) * (0.5 * b.mean);
+      energy += stretched * stretched * (6.0 * b.curvature / b.phi);
     }
     strain += g * g * 0.1 + difference[i] * difference[i] * (1.0 / 24.0);
   }
   strain = strain - m_shortening_rest;
-  const T x = mean[0] * 0.5 + gamma[0], y = mean[1] * 0.5 + gamma[1];
-  const T torsion = twist + x * difference[1] - y * difference[0] - m_twist_rest;
-  energy += torsion * torsion * (0.5 * m_section.torsion / m_length);
-  if (m_bending[0].phi > 0.0) {
+  const T twisted = torsion();
+  energy += twisted * twisted * (0.5 * torsion_stiffness);
+  if (shear) {
     // Section normals away from the chord by gamma: d is that much longer on the map of angles than
     // on the sphere of directions. Small, but bending energy may be large beside that of shear.
     const T across = gamma[0] * difference[1] - gamma[1] * difference[0];

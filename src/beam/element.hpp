@@ -77,13 +77,15 @@ class BeamElement {
  private:
   // Per axis of bending (d2, d3), from section and length.
   struct Bending {
-    double curvature;  // EI/L
-    double mean;       // 12 EI/(L (1 + phi)^2), phi = 12 EI/(GA L^2)
-    double phi;
+    double curvature;                   // EI/L
+    double phi;                         // 12 EI/(GA L^2)
     double mean_rest, difference_rest;  // of the slopes at the ends
   };
   double gradient_and_hessian(const ElementPose& pose, Vec12& gradient, Mat12& hessian,
                               ElementForces* forces) const;
+  // Adds the shear that a torque causes in a bent element.
+  template <class T>
+  void add_shear_of_torque(const T& torque, const T* difference, T* gamma) const;
   // Energy without stretching, and the strain.
   template <class T>
   T local_energy(const T& chord, const T* slopes, const T& twist, T& strain) const;

@@ -106,6 +106,20 @@ TEST(NotConverged, is_said_when_the_budget_is_too_small) {
   EXPECT_GT(s.report.residual, 1e-10);
 }
 
+// Where Newton's budget does not reach, pivoting takes over, itself capped.
+TEST(NotConverged, automatic_falls_back_on_pivoting) {
+  const Case c = one_sided(murty_matrix(12), VectorXd::Constant(12, -1.0));
+  McpOptions options;
+  options.max_iterations = 1;
+  options.method = McpMethod::newton;
+  EXPECT_EQ(solve_mcp(c.M, c.q, c.lower, c.upper, options).report.status, McpStatus::not_converged);
+  options.method = McpMethod::automatic;
+  const McpSolution s = solve_mcp(c.M, c.q, c.lower, c.upper, options);
+  expect_solved(c, s);
+  EXPECT_LE((s.z - VectorXd::Unit(12, 0)).norm(), 1e-12);
+  EXPECT_LE(s.report.iterations, 1 + 2);  // of Newton, and pivots
+}
+
 TEST(NotConverged, tolerance_zero_means_as_good_as_rounding_allows) {
   std::mt19937 generator(32);
   const Case c = one_sided(random_p_matrix(20, generator), random_matrix(20, 1, generator));

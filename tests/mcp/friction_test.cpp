@@ -1,12 +1,11 @@
-// Friction as boxes: pull-out of a chain, and a belt round a post (capstan) in N contacts.
+// Friction as boxes: pull-out of a chain, and a belt round a post (capstan) in N contacts; with
+// Coulomb's law in the problem: a block on a slope.
 #include <cstdio>
 
-#include "problems.hpp"
+#include "friction.hpp"
 
 namespace brainshift::test {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // A rod of n nodes in tissue, one friction box (+- bound) per node, pulled out at node 0 by a hand
 // that moves through a spring of the same stiffness. M is the compliance, q the way without friction.
@@ -80,68 +79,6 @@ TEST(PullOutChain, SlipsAsFarAsTheForceReaches) {
   }
 }
 
-// A belt over `angle` of a round post in N contacts: the polygon turns by angle/N at each, so that
-// its two strands leave a contact at half of that from the tangent. Unknowns: tangential and outward
-// displacement of every contact (free rows), then normal force (one-sided) and friction (box) of
-// each. Strand 0 hangs on a weight T0, strand N on a hand that pulls `hand` mm.
-struct Belt {
-  int contacts;
-  double angle, friction;
-  double weight = 1.0, stiffness = 100.0, hand = 1.0;
-
-  // Elongation of strand i (between contacts i - 1 and i, the last one to the hand) by the unknowns.
-  VectorXd strand(int i) const {
-    const double half = 0.5 * angle / contacts, c = std::cos(half), s = std::sin(half);
-    VectorXd g = VectorXd::Zero(4 * contacts);
-    if (i < contacts) g.segment<2>(2 * i) = Eigen::Vector2d(c, s);
-    if (i > 0) g.segment<2>(2 * (i - 1)) = Eigen::Vector2d(-c, s);
-    return g;
-  }
-  double tension(int i, const VectorXd& z) const {
-    if (i == 0) return weight;
-    return stiffness * (strand(i).dot(z) + (i == contacts ? hand : 0.0));
-  }
-  // The forces on the contacts are -dE/dx + C^T lambda: w of the free rows is minus that.
-  Case problem(const VectorXd& bounds) const {
-    const int n = contacts;
-    Case c{MatrixXd::Zero(4 * n, 4 * n), VectorXd::Zero(4 * n), VectorXd::Constant(4 * n, -inf),
-           VectorXd::Constant(4 * n, inf)};
-    c.q = weight * strand(0);
-    for (int i = 1; i <= n; ++i) {
-      c.M += stiffness * strand(i) * strand(i).transpose();
-      if (i == n) c.q += stiffness * hand * strand(i);
-    }
-    for (int i = 0; i < n; ++i) {
-      const int along = 2 * i, outward = along + 1, normal = 2 * n + i, rub = 3 * n + i;
-      c.M(normal, outward) = 1.0, c.M(outward, normal) = -1.0;
-      c.M(rub, along) = 1.0, c.M(along, rub) = -1.0;
-      c.lower[normal] = 0.0;
-      c.lower[rub] = -bounds[i], c.upper[rub] = bounds[i];
-    }
-    return c;
-  }
-};
-
-struct Grip {
-  McpSolution solution;
-  int rounds = 0;
-};
-
-// The bound of each box is friction times the normal force of the round before.
-Grip coulomb(const Belt& belt, McpMethod method) {
-  const int n = belt.contacts;
-  VectorXd bounds = VectorXd::Zero(n);
-  for (Grip grip;;) {
-    grip.solution = solve(belt.problem(bounds), method);
-    expect_solved(belt.problem(bounds), grip.solution);
-    const VectorXd next = belt.friction * grip.solution.z.segment(2 * n, n);
-    ++grip.rounds;
-    const double change = (next - bounds).cwiseAbs().maxCoeff();
-    bounds = next;
-    if (change <= 1e-13 * next.maxCoeff() || grip.rounds == 100) return grip;
-  }
-}
-
 TEST(Capstan, TensionRatioOfAPolygon) {
   const struct {
     int contacts;
@@ -169,6 +106,34 @@ TEST(Capstan, TensionRatioOfAPolygon) {
     }
   }
   std::printf("capstan, smooth post: exp(mu pi) = %.6f\n", std::exp(0.3 * pi));
+}
+
+// A block of unit mass on a slope: velocity after a second from rest, so that it is an acceleration,
+// normal and down the slope. Sticks where tan(angle) <= mu, else a = g (sin - mu cos).
+TEST(Slope, BlockSticksUpToTheAngleOfFriction) {
+  const double g = standard_gravity, mu = 0.3, critical = std::atan(mu);
+  for (const double angle : {0.0, 0.5 * critical, critical - 1e-6, critical + 1e-6, 0.5, 1.2}) {
+    SCOPED_TRACE(angle);
+    const Eigen::Vector2d free(-g * std::cos(angle), g * std::sin(angle));
+    const double expected = std::max(0.0, g * (std::sin(angle) - mu * std::cos(angle)));
+    EXPECT_EQ(expected == 0.0, std::tan(angle) <= mu);
+    const Case c = coulomb_problem(MatrixXd::Identity(2, 2), free, mu);
+    for (const McpMethod method : {McpMethod::automatic, McpMethod::pivoting}) {
+      SCOPED_TRACE(name(method));
+      const McpSolution s = solve(c, method);
+      expect_solved(c, s);
+      const Eigen::Vector2d r = reaction(s.z, 0), v = free + r;
+      // 1e-10 of g, the residual that counts as solved
+      EXPECT_NEAR(v[0], 0.0, 1e-10 * g);
+      EXPECT_NEAR(v[1], expected, 1e-10 * g);
+      EXPECT_NEAR(r[0], g * std::cos(angle), 1e-10 * g);
+      EXPECT_NEAR(r[1], -std::min(mu * r[0], g * std::sin(angle)), 1e-10 * g);
+    }
+    // with the normal force known, friction is a box
+    Case box = one_sided(MatrixXd::Identity(1, 1), vector({free[1]}));
+    box.upper[0] = mu * g * std::cos(angle), box.lower[0] = -box.upper[0];
+    EXPECT_NEAR(solve(box).w[0], expected, 1e-10 * g);
+  }
 }
 
 }  // namespace

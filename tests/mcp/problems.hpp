@@ -97,4 +97,38 @@ inline MatrixXd murty_matrix(Eigen::Index n) {
   return M;
 }
 
+struct Known {
+  Case c;
+  VectorXd z, w;
+};
+
+// Every kind of bound at random; `degenerate` of the rows at a bound have w = 0, too.
+inline Known around_a_solution(const MatrixXd& M, double degenerate, std::mt19937& generator) {
+  const Eigen::Index n = M.rows();
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  Known known{one_sided(M, VectorXd::Zero(n)), VectorXd::Zero(n), VectorXd::Zero(n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double kind = uniform(generator), pick = uniform(generator);
+    const bool box = kind > 0.6 && kind < 0.8, free = kind >= 0.8;
+    if (box) known.c.lower[i] = -uniform(generator);
+    if (box) known.c.upper[i] = uniform(generator);
+    if (free) known.c.lower[i] = -inf;
+    const double w = uniform(generator) < degenerate ? 0.0 : uniform(generator);
+    if (free) {
+      known.z[i] = 2.0 * pick - 1.0;
+    } else if (pick < 0.5) {
+      known.z[i] = known.c.lower[i];
+      known.w[i] = w;
+    } else if (box && pick < 0.75) {
+      known.z[i] = known.c.upper[i];
+      known.w[i] = -w;
+    } else {
+      const double top = box ? known.c.upper[i] : 1.0;
+      known.z[i] = known.c.lower[i] + uniform(generator) * (top - known.c.lower[i]);
+    }
+  }
+  known.c.q = known.w - M * known.z;
+  return known;
+}
+
 }  // namespace brainshift::test

@@ -38,11 +38,11 @@ TEST(Redundancy, noise_is_no_contradiction) {
   EXPECT_EQ(solve_mcp(c.M, c.q, c.lower, c.upper, options).report.status, McpStatus::infeasible);
   options.noise = 1e-13;
   EXPECT_EQ(solve_mcp(c.M, c.q, c.lower, c.upper, options).report.status, McpStatus::solved);
-  c.q = vector({1.0, 1.0 + 1e-14});   // beside what is known the noise is nothing
+  c.q = vector({1.0, 1.0 + 1e-14});  // beside what is known the noise is nothing
   const McpSolution s = solve_mcp(c.M, c.q, c.lower, c.upper, options);
   EXPECT_EQ(s.report.status, McpStatus::solved);
   EXPECT_NEAR(s.z.sum(), -1.0, 1e-12);
-  c.q = vector({1e-14, -3e-12});      // more than noise
+  c.q = vector({1e-14, -3e-12});  // more than noise
   EXPECT_EQ(solve_mcp(c.M, c.q, c.lower, c.upper, options).report.status, McpStatus::infeasible);
 }
 
@@ -92,6 +92,43 @@ TEST(Redundancy, twenty_contacts_of_rank_six_balance_the_load) {
       EXPECT_LE(balance.norm(), 1e-8 * (H.transpose() * z_known).norm());
     }
   }
+}
+
+// A block pushed into a corner: twenty contacts on three of its faces, their wrenches of rank six.
+// The forces are many, their sum is one: it balances the load.
+TEST(Redundancy, block_in_a_corner_on_twenty_contacts) {
+  std::mt19937 generator(15);
+  std::uniform_real_distribution<double> uniform(0.1, 0.9);
+  const Eigen::Vector3d size(60.0, 40.0, 20.0), centre = 0.5 * size;
+  MatrixXd H(20, 6);  // unit normal force on the block: force and moment about its centre
+  for (int i = 0; i < 20; ++i) {
+    const int axis = i % 3;
+    Eigen::Vector3d point(uniform(generator), uniform(generator), uniform(generator));
+    point = point.cwiseProduct(size);
+    point[axis] = 0.0;
+    const Eigen::Vector3d normal = Eigen::Vector3d::Unit(axis);
+    H.row(i).head<3>() = normal;
+    H.row(i).tail<3>() = (point - centre).cross(normal);
+  }
+  const double mass = 0.05;
+  VectorXd inertia(6);  // of a solid block
+  inertia << mass, mass, mass, mass / 12.0 * (1600.0 + 400.0), mass / 12.0 * (3600.0 + 400.0),
+      mass / 12.0 * (3600.0 + 1600.0);
+  VectorXd load = VectorXd::Zero(6);  // weight, leaning into the corner
+  load.head<3>() = -mass * standard_gravity * Eigen::Vector3d(1.0, 2.0, 3.0).normalized();
+  const MatrixXd compliance = inertia.cwiseInverse().asDiagonal();
+  const Case c = one_sided(H * compliance * H.transpose(), H * compliance * load);
+  for (const McpMethod method : exact_methods) {
+    SCOPED_TRACE(name(method));
+    const McpSolution s = solve(c, method);
+    expect_solved(c, s);
+    const VectorXd balance = H.transpose() * s.z + load;
+    EXPECT_LE(balance.head<3>().norm(), 1e-9 * load.norm());
+    EXPECT_LE(balance.tail<3>().norm(), 1e-9 * load.norm() * size.norm());
+    EXPECT_FALSE(s.report.unique);
+    EXPECT_LE(s.report.rank, 6);
+  }
+  EXPECT_EQ(solve(c).report.rank, 6);
 }
 
 // n = 60 of rank 20: every contact three times, with gaps that differ by nothing or by little.

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <cstdio>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "beam/centreline.hpp"
 #include "beam/rotation.hpp"
@@ -81,5 +84,47 @@ inline BeamState moved(const BeamState& state, const Mat3& R, const Vec3& shift)
 
 // Observed order of convergence between two errors with twice as many elements in the second.
 inline double order(double coarse, double fine) { return std::log2(coarse / fine); }
+
+// Errors on a family of meshes.
+struct Convergence {
+  std::vector<Index> elements;
+  std::vector<double> error;
+
+  // Slope of the straight line through log(error) over log(1/h), by least squares.
+  double observed_order() const {
+    const auto n = Eigen::Index(elements.size());
+    Eigen::MatrixXd line(n, 2);
+    Eigen::VectorXd logs(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      line.row(i) << 1.0, -std::log(double(elements[std::size_t(i)]));
+      logs[i] = std::log(error[std::size_t(i)]);
+    }
+    return line.colPivHouseholderQr().solve(logs)[1];
+  }
+  // A row of a table.
+  void print(const std::string& name) const {
+    std::printf("%-40s", name.c_str());
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      std::printf(" | %4d: %.2e", int(elements[i]), error[i]);
+    }
+    std::printf(" | order %.2f\n", observed_order());
+  }
+};
+
+// error_of(elements) on each mesh.
+template <class F>
+Convergence convergence(std::vector<Index> elements, F&& error_of) {
+  Convergence result{std::move(elements), {}};
+  for (const Index n : result.elements) result.error.push_back(error_of(n));
+  return result;
+}
+
+// Four meshes, each with twice as many elements.
+inline std::vector<Index> four_meshes(Index coarsest) {
+  return {coarsest, 2 * coarsest, 4 * coarsest, 8 * coarsest};
+}
+
+// How far an observed order may be from the one of theory: what is asked for of four meshes.
+constexpr double order_tolerance = 0.15;
 
 }  // namespace brainshift::test

@@ -7,6 +7,10 @@ TEXT = {
 tip along its trajectory from right after its cannula left to after recovery, positive towards the burr
 hole, mean of the electrodes; STN, AC, PC, MCP (mid-commissural point) and pole (the frontal pole that
 moves more) at the end of surgery; bow out: right after the cannula left. All in mm, RAS."""),
+    "paper": ("The paper's two figures", """D at 22 and 62 mL beside the paper's simulation and the empirical law 2 + 0.08 V (mm, mL) with the spread the
+paper quotes; no parameter differs between the volumes. |shift| of the STN stands beside D: in the paper's
+preset at the size of MNI space it comes closer to the paper's figures than D does."""),
+    "mesh": ("Three meshes", """The same head in three meshes at equal volumes of air; spread: largest minus smallest."""),
     "claims": ("The paper's claims, ingredient on and off", """40 mL of air on both sides. First shift: largest motion of a side's surface after the right craniotomy.
 Second: motion of the right STN as the right cannula leaves; beside it, as part of the first. Inverse:
 motion of the right STN at recovery. Bow y: component of the bow's direction forwards."""),

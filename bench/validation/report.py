@@ -8,8 +8,7 @@ tip along its trajectory from right after its cannula left to after recovery, po
 hole, mean of the electrodes; STN, AC, PC, MCP (mid-commissural point) and pole (the frontal pole that
 moves more) at the end of surgery; bow out: right after the cannula left. All in mm, RAS."""),
     "paper": ("The paper's two figures", """D at 22 and 62 mL beside the paper's simulation and the empirical law 2 + 0.08 V (mm, mL) with the spread the
-paper quotes; no parameter differs between the volumes. |shift| of the STN stands beside D: in the paper's
-preset at the size of MNI space it comes closer to the paper's figures than D does."""),
+paper quotes; no parameter differs between the volumes. The shift of the STN stands beside D."""),
     "mesh": ("Three meshes", """The same head in three meshes at equal volumes of air; spread: largest minus smallest."""),
     "claims": ("The paper's claims, ingredient on and off", """40 mL of air on both sides. First shift: largest motion of a side's surface after the right craniotomy.
 Second: motion of the right STN as the right cannula leaves; beside it, as part of the first. Inverse:
@@ -36,7 +35,7 @@ def write_csv(path, table):
 
 
 def markdown(table):
-    head, *rows = table
+    head, *rows = [[cell.replace("|", "\\|") for cell in row] for row in table]
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
 

@@ -344,6 +344,6 @@ def clinic(runner):
     row("PC, the same case", "1.79", "62 mL", lambda r: np.linalg.norm(r.shift("PC")), 0.8, 2.8)
     row("frontal pole", "2.2 mean", "21 mL", lambda r: max(
         np.linalg.norm(r.shift(f"frontal_pole_{s}")) for s in ("left", "right")), 1.2, 3.2)
-    row("target, turn of the head by 15 degrees alone", "0.5 to 0.8", "posture",
+    row("target, turn of the head by 15 degrees alone (sets the tether)", "0.5 to 0.8", "posture",
         lambda r: np.linalg.norm(r.shift("STN_right", "0b")), 0.5, 0.8)
     return rows, runs

@@ -35,7 +35,8 @@ struct McpReport {
   McpStatus status = McpStatus::not_converged;
   // max_i |z_i - clamp(z_i - w_i, lower_i, upper_i)| / T_i, rows and columns scaled to entries of
   // order one; T_i = |q_i| + sum_j |M_ij z_j|, at least 1e-3 of the largest of them and at most
-  // 1e4 times the largest w at z = 0; of w, what is beyond the noise. No unit, and small forces count as much as large ones.
+  // 1e4 times the largest w at z = 0; of w, what is beyond the noise. No unit, and small
+  // forces count as much as large ones.
   // Computed from the z returned, whatever the method says.
   double residual = 0.0;
   int iterations = 0;  // Newton iterations, pivots or sweeps; automatic: their sum

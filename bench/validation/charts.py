@@ -5,7 +5,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from studies import PAPER, SENSITIVITY, STUDIED, law
+from studies import BAND, PAPER, SENSITIVITY, STUDIED, law
 
 COLOURS = {"default": "tab:blue", "paper-2011": "tab:red", "paper-2011, MNI size": "tab:orange"}
 
@@ -21,7 +21,7 @@ def retraction(runs, path):
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.6), sharey=True)
     volume = np.linspace(0, 76, 50)
     for axis, way in zip(axes, ("both", "right")):
-        spread = np.interp(volume, [22, 62], [2.0, 2.5])
+        spread = np.interp(volume, list(BAND), list(BAND.values()))
         axis.fill_between(volume, law(volume) - spread, law(volume) + spread, color="0.9",
                           label="law 2 + 0.08 V, its band")
         axis.plot(list(PAPER), list(PAPER.values()), "k*", markersize=11, label="paper, simulated")

@@ -15,7 +15,7 @@ Second: motion of the right STN as the right cannula leaves; beside it, as part 
 motion of the right STN at recovery. Bow y: component of the bow's direction forwards."""),
     "sensitivity": ("Which choices decide", "One choice changed at a time."),
     "movers": ("What moves a lead", "Default preset, 40 mL of air on both sides."),
-    "ablation": ("What a scene needs", """Default preset, 22 mL on both sides, state before the left cannula leaves (one side: the right). Seconds
+    "ablation": ("What a scene needs", """Default preset, 22 mL on both sides: at the end of testing on the right, and after recovery. Seconds
 are of this machine and depend on what runs beside; ratios mean more."""),
     "uncertainty": ("Uncertainty", """Right side only; stiffness, lead stiffness, friction and loss drawn evenly in the logarithm, Poisson's
 ratio and elevation evenly, from a fixed seed. Linearised: central values and one finite difference

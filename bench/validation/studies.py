@@ -9,6 +9,9 @@ PRESETS = {
 PAPER = {22: 3.0, 62: 6.8}             # Bilger 2011: D (mm) at V (mL)
 
 
+BAND = {22: 2.0, 62: 2.5}              # spread of the law at V, mm
+
+
 def law(volume):
     """Empirical law quoted by the paper: mm at mL."""
     return 2.0 + 0.08 * volume
@@ -67,8 +70,7 @@ def paper_table(sweep_runs):
     for (preset, way, volume), run in sweep_runs.items():
         if volume not in PAPER:
             continue
-        band = {22: 2.0, 62: 2.5}[volume]
-        middle = law(volume)
+        band, middle = BAND[volume], law(volume)
         start = [preset, way, str(volume), f"{PAPER[volume]}", f"{middle:.2f} ± {band}"]
         if not run.converged:
             rows.append([*start, headline(run)[0], "", "", "", ""])
@@ -275,8 +277,7 @@ def uncertainty(runner, count):
     measures = {"STN |shift|": lambda r: np.linalg.norm(r.shift("STN_right")),
                 "D skull": lambda r: r.mean_retraction("skull"),
                 "D tissue": lambda r: r.mean_retraction("tissue"),
-                "tip off target": lambda r: np.linalg.norm(
-                    np.subtract(r.electrode("right")["tip_mm"], r.electrode("right")["target_mm"]))}
+                "tip off target": lambda r: np.linalg.norm(r.electrode("right")["off_target_mm"])}
     good = [runs[f"sample {i}"] for i in range(count) if runs[f"sample {i}"].converged]
     rows = [["measure", "samples", "mean mm", "sd mm", "P(> 2 mm)", "linearised sd mm"]]
     for name, measure in measures.items():
@@ -319,7 +320,8 @@ def clinic(runner):
             return
         found = value(runs[run])
         air = number(runs[run].air(), 0) if run != "posture" else "0"
-        rows.append([what, series, air, number(found, 2), "yes" if low <= found <= high else "no"])
+        within = "-" if np.isnan(low) else "yes" if low <= found <= high else "no"
+        rows.append([what, series, air, number(found, 2), within])
 
     def recovery(run, axis):
         moved = run.shift("STN_right", "9") - run.shift("STN_right")

@@ -71,7 +71,7 @@ def main():
         print(f"without a balance: {failed}")
     if refused:   # a balance that was not found is a result; a refusal is a mistake in the study
         print(f"refused: {refused}", file=sys.stderr)
-    return 1 if refused else 0
+    return 1 if refused or (failed and not long) else 0
 
 
 def draw(done, pictures):

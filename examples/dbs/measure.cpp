@@ -20,7 +20,7 @@ double tissue_volume(const Stepper& stepper) {
 
 TissueMeasures::TissueMeasures(const Head& head, const Stepper& stepper)
     : m_head(head),
-      m_before(Points::Zero(head.brain.node_count(), 3)),
+      m_before(Points::Zero(stepper.mesh().node_count(), 3)),
       m_volume_before(tissue_volume(stepper)) {
   std::vector<char> medial(std::size_t(head.brain.node_count()), 0);
   for (std::size_t i = 0; i < medial.size(); ++i) medial[i] = head.pair[i] >= 0;
@@ -60,7 +60,7 @@ void TissueMeasures::set_reference(const Stepper& stepper) {
 }
 
 void TissueMeasures::fill(const Stepper& stepper, StageResult& result) const {
-  const Points u = stepper.displacement() - m_before;
+  const Points u = stepper.displacement() - m_before;   // edge nodes follow the head's own
   for (int side : {left, right}) {
     result.fluid[side] = stepper.compartment(compartment_of(stepper, side));
     result.surface_motion[side] = 0.0;

@@ -115,6 +115,9 @@ int parse(int argc, char** argv, Options& o) {
   app.add_option("--law", o.law, "linear, corotational, st_venant_kirchhoff, stable_neo_hookean or "
                  "log_neo_hookean")
       ->capture_default_str();
+  app.add_option("--element", o.element, "linear tets, nodal (linear, the change of volume averaged "
+                 "around nodes) or quadratic")
+      ->capture_default_str()->check(CLI::IsMember({"linear", "nodal", "quadratic"}));
   app.add_option("--young", o.young, "Young's modulus of the brain, kPa")->capture_default_str();
   app.add_option("--poisson", o.poisson, "Poisson's ratio of the brain")->capture_default_str();
   app.add_option("--density", o.density, "of the brain, kg/m^3")->capture_default_str();

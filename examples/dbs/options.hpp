@@ -27,6 +27,7 @@ struct Options {
   double gap = 0.0;               // mm of fluid more between brain and skull
   std::string out = "out/dbs";
   std::string law = "corotational";
+  std::string element = "linear";   // tets: linear, nodal (linear, volume at nodes), quadratic
   double young = 6.0;             // kPa
   double poisson = 0.45;
   double density = 1040.0;        // kg/m^3

@@ -186,7 +186,8 @@ Scene make_scene(const Head& head, const Options& o, SceneIds& ids) {
   }
   if (o.tether > 0.0) add_tether(head, o.tether, scene.constraints);
   add_contact(head, o, scene.constraints, ids);
-  return scene;
+  if (o.element == "nodal") scene.volume_strain = VolumeStrain::nodal;
+  return o.element == "quadratic" ? quadratic(scene) : scene;
 }
 
 }  // namespace dbs

@@ -84,7 +84,7 @@ nlohmann::json to_json(const StageResult& s) {
 
 nlohmann::json to_json(const Options& o) {
   return {{"preset", o.preset}, {"scale", o.scale}, {"gap_mm", o.gap}, {"mass_kg", o.mass},
-          {"law", o.law}, {"young_kPa", o.young}, {"poisson", o.poisson},
+          {"law", o.law}, {"element", o.element}, {"young_kPa", o.young}, {"poisson", o.poisson},
           {"density_kg_m3", o.density}, {"csf_density_kg_m3", o.csf_density}, {"right", o.right},
           {"left", o.left}, {"late", o.late}, {"elevation_deg", o.elevation},
           {"imaging_elevation_deg", imaging_elevation(o)}, {"fluid", o.fluid},

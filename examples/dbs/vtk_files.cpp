@@ -10,8 +10,8 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-Eigen::MatrixXd contact_forces(const Head& head, const Procedure& procedure) {
-  Points force = Points::Zero(head.brain.node_count(), 3);
+Eigen::MatrixXd contact_forces(const Procedure& procedure) {
+  Points force = Points::Zero(procedure.stepper().mesh().node_count(), 3);
   const auto add = [&](ConstraintId id, const Indices& nodes, const Indices* partners) {
     const ContactState c = procedure.stepper().contact(id);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -108,11 +108,12 @@ std::string write_stage(const std::string& folder, const Head& head, const Proce
   }
   io::Grid grid;
   grid.points = stepper.positions();   // deformed
-  grid.tets = head.brain.tets();
+  grid.tets = stepper.mesh().tets();
+  grid.edge_nodes = stepper.mesh().edge_nodes();
   grid.node_fields = {{"displacement", procedure.shift(), false},
                       {"pressure", pressure, false},
                       {"wetted", (pressure.array() != 0.0).cast<double>().matrix(), true},
-                      {"contact_force", contact_forces(head, procedure), false}};
+                      {"contact_force", contact_forces(procedure), false}};
   grid.cell_fields = {{"region", regions, true}, {"jacobian", stepper.jacobians(), false}};
   const std::string name = "stage_" + label + ".vtu";
   io::write_vtu(folder + "/" + name, grid);

@@ -34,6 +34,8 @@ struct ConstraintGroup {
   Points normals;                              // opposing: unit normals, from partner to node
 };
 
+class Mesh;
+
 class ConstraintSet {
  public:
   // Displacement of the nodes is zero along the chosen axes.
@@ -60,12 +62,16 @@ class ConstraintSet {
   const ConstraintGroup& group(ConstraintId id) const;  // throws invalid_argument
 
  private:
+  friend ConstraintSet quadratic(const ConstraintSet& set, const Mesh& linear, const Mesh& quadratic);
   ConstraintId add(ConstraintGroup group);
   ConstraintGroup& find(ConstraintId id);
 
   std::vector<ConstraintGroup> m_groups;
   ConstraintId m_next = 0;
 };
+
+// The set for the same mesh with quadratic tets, see quadratic(const Scene&).
+ConstraintSet quadratic(const ConstraintSet& set, const Mesh& linear, const Mesh& quadratic);
 
 // What a solve found for a group of one-sided rows, in the order of its nodes.
 struct ContactState {

@@ -21,7 +21,8 @@ using Lines = Eigen::Matrix<Index, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
 struct Grid {
   Points points;        // mm
-  Tets tets;            // VTU: linear tets
+  Tets tets;            // VTU: tets
+  EdgeNodes edge_nodes; //      no rows: linear; else quadratic tets
   Lines lines;          // VTP: straight lines between two nodes, before
   Triangles triangles;  //      triangles
   std::vector<Field> node_fields;
@@ -34,7 +35,8 @@ struct Grid {
 // infinity are refused in reading and in writing. The readers take ascii, binary and appended
 // arrays, with and without zlib, of every number type of VTK. Writers write zlib-compressed binary
 // (Float64), and to a temporary beside the target and rename: an old file stays whole on failure.
-Grid read_vtu(const std::string& path);  // UnstructuredGrid of linear tets
+// UnstructuredGrid of tets, all of them linear (type 10) or all quadratic (type 24).
+Grid read_vtu(const std::string& path);
 Grid read_vtp(const std::string& path);  // PolyData of lines and triangles
 void write_vtu(const std::string& path, const Grid& grid);
 void write_vtp(const std::string& path, const Grid& grid);

@@ -20,6 +20,10 @@ const char* to_string(Law law);
 // Throws Error(invalid_argument) naming the word and the known ones.
 Law law_from_name(const std::string& name);
 
+// Where linear tets take the change of volume that lambda resists (docs/theory.md (22)): in each tet,
+// which locks as Poisson's ratio nears 1/2, or averaged around each node, which does not.
+enum class VolumeStrain { element, nodal };
+
 class Material {
  public:
   // young: E > 0 (kPa). poisson: -1 < nu < 0.5. density >= 0 (kg/mm^3). All finite, else Error.

@@ -30,7 +30,16 @@ struct Scene {
   // are differences from that reference, taken at the same deformed positions. false: the mesh is
   // free of load, and gravity and CSF act in full.
   bool balanced_reference = true;
+  VolumeStrain volume_strain = VolumeStrain::element;  // nodal: linear tets that do not lock
 };
+
+// The same scene on quadratic tets (Mesh::quadratic()); a scene that is quadratic returns as it is.
+// Groups of constraints take in the nodes on edges between their nodes: fixed where a face of a tet
+// has all corners in the group, tied and opposing where an edge of `nodes` meets one of `partners`,
+// obstacles (offset: the mean of the ends', but no more than the node's own distance, and that where
+// both ends touch at rest), and supports, whose stiffness moves from the corners of surface faces to their edges, as a constant
+// traction does. volume_strain becomes element: quadratic tets need no other.
+Scene quadratic(const Scene& scene);
 
 struct Progress {
   double load_factor;    // 0..1 of the present solve
@@ -123,6 +132,14 @@ struct SolveReport {
 struct PointValues {
   Points values;   // mm
   Indices tet;
+};
+
+// How far the mesh may have a state wrong, at points of the rest shape.
+struct ErrorEstimate {
+  Points correction;        // N x 3, mm: by how much quadratic tets would move the points further
+  Eigen::VectorXd error;    // N, mm: its length; NaN outside the mesh
+  int iterations = 0;       // of the conjugate gradients
+  double seconds = 0.0;
 };
 
 class Stepper {
@@ -246,6 +263,14 @@ class Stepper {
   // rest points of the material that now lies at `points`.
   PointValues displacement_at(const Points& rest_points) const;
   PointValues rest_points_of(const Points& points) const;
+
+  // The error of the discretisation in the displacement at `rest_points`, of the last static state, for
+  // linear tets of either volume strain: what quadratic tets on the same geometry would change, to
+  // first order. Contacts that are closed stay closed, forces of devices stay what they are; errors
+  // of the geometry, the law and its parameters are not in it. Costs a factorisation of the linear
+  // tets and some tens of products with the quadratic ones, whose matrix is some ten times as large.
+  // Throws invalid_argument on quadratic tets, linear_solver where the state is not stable.
+  ErrorEstimate estimate_error(const Points& rest_points) const;
 
   // A copy of state (with velocities) and settings; restore() brings back the same bits.
   class Snapshot;

@@ -21,6 +21,8 @@ using Mat3 = Eigen::Matrix3d;
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 // M x 4 node indices of linear tets; (p1-p0) x (p2-p0) . (p3-p0) > 0.
 using Tets = Eigen::Matrix<Index, Eigen::Dynamic, 4, Eigen::RowMajor>;
+// M x 6 nodes on the edges 01, 12, 02, 03, 13, 23 of quadratic tets (the order of VTK).
+using EdgeNodes = Eigen::Matrix<Index, Eigen::Dynamic, 6, Eigen::RowMajor>;
 // K x 3 node indices, counter-clockwise seen from outside.
 using Triangles = Eigen::Matrix<Index, Eigen::Dynamic, 3, Eigen::RowMajor>;
 

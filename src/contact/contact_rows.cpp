@@ -1,16 +1,26 @@
 #include "contact/contact_rows.hpp"
 
+#include "brainshift/error.hpp"
+
 namespace brainshift {
 
-ContactRows::ContactRows(const ConstraintSet& set, const Indices& block_of, const Points& rest)
+ContactRows::ContactRows(const ConstraintSet& set, const Indices& block_of, const Points& rest,
+                         const std::vector<char>& silent)
     : m_rest(rest) {
   for (const ConstraintGroup& group : set.groups()) {
     const bool pair = group.kind == ConstraintKind::opposing;
     if (!group.enabled || (group.kind != ConstraintKind::obstacle && !pair)) continue;
     m_groups.push_back(group);
+    const std::size_t before = m_rows.size();
     for (std::size_t i = 0; i < group.nodes.size(); ++i) {
+      if (!silent.empty() && silent[std::size_t(group.nodes[i])]) continue;
       const Index partner = pair ? block_of[std::size_t(group.partners[i])] : -1;
       m_rows.push_back({block_of[std::size_t(group.nodes[i])], partner, m_groups.size() - 1, i});
+    }
+    if (m_rows.size() == before) {
+      throw Error(ErrorCode::invalid_argument,
+                  "constraint '" + group.name + "' names corners only; contact of quadratic tets is "
+                  "held at the nodes on their edges");
     }
   }
 }

@@ -21,8 +21,12 @@ struct GapSample {
 class ContactRows {
  public:
   ContactRows() = default;
-  // block_of[node]: reduced block. Keeps a copy of the set (surfaces are shared inside).
-  ContactRows(const ConstraintSet& set, const Indices& block_of, const Points& rest);
+  // block_of[node]: reduced block. Keeps a copy of the set (surfaces are shared inside). No rows are
+  // made for nodes with a mark in `silent`: the corners of quadratic tets. A constant pressure puts no
+  // force on them, so that bounds there would let one multiplier after the other go; a group of
+  // silent nodes alone is refused (invalid_argument).
+  ContactRows(const ConstraintSet& set, const Indices& block_of, const Points& rest,
+              const std::vector<char>& silent = {});
 
   std::size_t size() const { return m_rows.size(); }
   const ContactRow& row(std::size_t r) const { return m_rows[r]; }

@@ -103,9 +103,10 @@ Eigen::VectorXd Coupling::tissue_gradient(const CouplingRow& row, const Blocks& 
   Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * blocks.count());
   if (row.kind == RowKind::anchor_across || row.one_sided()) return g;
   const PathPoint& point = m_devices[row.device].path[row.point];
-  for (int a = 0; a < 4; ++a) {
-    const Index node = m_mesh.tets()(point.tet, a);
-    g.segment<3>(3 * blocks.block_of()[std::size_t(node)]) += point.weights[a] * row.direction;
+  const Interpolation at = m_mesh.interpolation(point.tet, point.weights);
+  for (std::size_t a = 0; a < std::size_t(at.count); ++a) {
+    const Index block = blocks.block_of()[std::size_t(at.nodes[a])];
+    g.segment<3>(3 * block) += at.weights[a] * row.direction;
   }
   return g;
 }
@@ -129,9 +130,9 @@ void Coupling::add_forces(const std::vector<CouplingRow>& rows,
     on_devices[row.device] += multiplier * device_gradient(row, motions);
     if (row.kind == RowKind::anchor_across || row.one_sided()) continue;
     const PathPoint& point = m_devices[row.device].path[row.point];
-    for (int a = 0; a < 4; ++a) {
-      nodal.row(m_mesh.tets()(point.tet, a)) +=
-          (multiplier * point.weights[a] * row.direction).transpose();
+    const Interpolation at = m_mesh.interpolation(point.tet, point.weights);
+    for (std::size_t a = 0; a < std::size_t(at.count); ++a) {
+      nodal.row(at.nodes[a]) += (multiplier * at.weights[a] * row.direction).transpose();
     }
   }
 }

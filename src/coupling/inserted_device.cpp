@@ -66,12 +66,8 @@ void clamp_friction(InsertedDevice& device) {
 }
 
 Vec3 path_position(const Mesh& mesh, const Points& u, const PathPoint& point) {
-  Vec3 x = Vec3::Zero();
-  for (int a = 0; a < 4; ++a) {
-    const Index node = mesh.tets()(point.tet, a);
-    x += point.weights[a] * (mesh.nodes().row(node) + u.row(node)).transpose();
-  }
-  return x;
+  const Interpolation at = mesh.interpolation(point.tet, point.weights);
+  return at.of(mesh.nodes()) + at.of(u);
 }
 
 }  // namespace brainshift

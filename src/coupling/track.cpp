@@ -8,6 +8,8 @@
 #include <Eigen/LU>
 
 #include "brainshift/error.hpp"
+#include "mesh/edge_nodes.hpp"
+#include "mesh/quadratic_tet.hpp"
 
 namespace brainshift {
 namespace {
@@ -62,8 +64,9 @@ class Independent {
   // Whether the point is independent of those taken before; then it is taken too.
   bool take(const Mesh& mesh, const PathPoint& point) {
     std::map<Index, double> rest;   // by node
-    for (int a = 0; a < 4; ++a) {
-      if (point.weights[a] != 0.0) rest[mesh.tets()(point.tet, a)] = point.weights[a];
+    const Interpolation at = mesh.interpolation(point.tet, point.weights);
+    for (std::size_t a = 0; a < std::size_t(at.count); ++a) {
+      if (at.weights[a] != 0.0) rest[at.nodes[a]] = at.weights[a];
     }
     const double whole = norm(rest);
     for (int pass = 0; pass < 2; ++pass) {   // twice is enough (Kahan)
@@ -93,6 +96,39 @@ class Independent {
   }
   std::vector<std::map<Index, double>> m_basis;
 };
+
+// Of a quadratic tet whose edges have bent: moves the point within the face it lies on, where the
+// chords between the corners cross the line, to where the face itself does. False where that is not
+// to be found close by.
+bool onto_line(const Mesh& mesh, const Points& positions, const Vec3& tip, const Vec3& outward,
+               PathPoint& point) {
+  int corner[4], free = 0;   // of the face: the corners but that opposite, whose weight is least
+  Eigen::Index opposite;
+  point.weights.minCoeff(&opposite);
+  for (int a = 0; a < 4; ++a) {
+    if (a != opposite) corner[free++] = a;
+  }
+  point.weights[opposite] = 0.0;
+  point.weights /= point.weights.sum();
+  const auto nodes = ten_rows(positions, mesh.tets(), mesh.edge_nodes(), point.tet);
+  const double close = 1e-13 * mesh.diameter();
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 off = tip + point.arc * outward - nodes.transpose() * quadratic_shape(point.weights);
+    if (off.norm() <= close) return point.weights.minCoeff() > -0.1;
+    const Eigen::Matrix<double, 3, 4> slopes =
+        nodes.transpose() * quadratic_shape_slopes(point.weights);
+    Mat3 J;
+    J << slopes.col(corner[1]) - slopes.col(corner[0]), slopes.col(corner[2]) - slopes.col(corner[0]),
+        -outward;
+    if (J.determinant() == 0.0) return false;
+    const Vec3 step = J.inverse() * off;
+    point.weights[corner[1]] += step[0];
+    point.weights[corner[2]] += step[1];
+    point.weights[corner[0]] -= step[0] + step[1];
+    point.arc += step[2];
+  }
+  return false;
+}
 
 // Crossings with faces, none nearer than least_spacing to the one before; may be none at all.
 std::vector<PathPoint> crossings(const Mesh& mesh, const Points& positions, const Vec3& tip,
@@ -131,9 +167,12 @@ std::vector<PathPoint> crossings(const Mesh& mesh, const Points& positions, cons
     if (c.to - before < least_spacing || c.to >= length) continue;
     Eigen::Vector4d weights = (c.at_tip + c.to * c.slope).cwiseMax(0.0);
     weights /= weights.sum();
-    const PathPoint point{piece.tet, weights, c.to, 0.0};
+    PathPoint point{piece.tet, weights, c.to, 0.0};
+    if (mesh.is_quadratic() && !onto_line(mesh, positions, tip, outward, point)) continue;
     if (known.take(mesh, point)) path.push_back(point);
   }
+  std::sort(path.begin(), path.end(),   // bent faces may change places
+            [](const PathPoint& a, const PathPoint& b) { return a.arc < b.arc; });
   // Each point stands for the track half-way to its neighbours.
   for (std::size_t i = 0; i < path.size(); ++i) {
     const double low = i == 0 ? 0.0 : 0.5 * (path[i - 1].arc + path[i].arc);

@@ -9,7 +9,7 @@ namespace brainshift {
 
 struct PathPoint {
   Index tet;
-  Eigen::Vector4d weights;  // barycentric; a point on a face between two tets has one zero
+  Eigen::Vector4d weights;  // barycentric (natural, if quadratic); a point on a face between two tets has one zero
   double arc;               // mm from the tip when it was found
   double length;            // mm of the track it stands for
 };

@@ -6,6 +6,7 @@
 
 #include "brainshift/error.hpp"
 #include "fluid/faces.hpp"
+#include "fluid/quadratic_face.hpp"
 #include "mesh/surface_topology.hpp"
 
 namespace brainshift {
@@ -49,6 +50,7 @@ Hydrostatics::Hydrostatics(const Mesh& mesh, const Csf& csf, const Vec3& gravity
       m_up(-gravity.normalized()),
       m_reference_gravity(gravity),
       m_reference_up(m_up) {
+  make_parts();
   for (Index i = 0; i < csf.compartment_count(); ++i) {
     const Compartment& c = csf.compartment(i);
     const Index face_count = Index(mesh.surface().rows());
@@ -62,6 +64,7 @@ Hydrostatics::Hydrostatics(const Mesh& mesh, const Csf& csf, const Vec3& gravity
       require_closed(mesh.nodes(), body, "the tissue in compartment '" + c.name + "'");
     }
     m_compartments.push_back(c);
+    m_body_parts.push_back(parts_of(c.body_faces));
     m_rest_tissue.push_back(tissue_volume(std::size_t(i), mesh.nodes()));
     const Eigen::VectorXd x = c.wall_points * Vec3::UnitX();
     const double width = x.maxCoeff() - x.minCoeff();
@@ -79,6 +82,31 @@ Hydrostatics::Hydrostatics(const Mesh& mesh, const Csf& csf, const Vec3& gravity
     m_reference_head = csf.reference_head();
   }
   configure(csf, gravity);
+}
+
+// The surface in flat triangles: its faces, or the four parts of each quadratic one.
+void Hydrostatics::make_parts() {
+  m_parts = m_mesh.surface();
+  if (!m_mesh.is_quadratic()) return;
+  m_parts.resize(4 * m_mesh.surface().rows(), 3);
+  for (Eigen::Index f = 0; f < m_mesh.surface().rows(); ++f) {
+    for (int p = 0; p < 4; ++p) {
+      for (int k = 0; k < 3; ++k) {
+        const int place = face_parts[p][k];
+        m_parts(4 * f + p, k) =
+            place < 3 ? m_mesh.surface()(f, place) : m_mesh.surface_edge_nodes()(f, place - 3);
+      }
+    }
+  }
+}
+
+Indices Hydrostatics::parts_of(const Indices& faces) const {
+  if (!m_mesh.is_quadratic()) return faces;
+  Indices parts;
+  for (Index f : faces) {
+    for (Index p = 0; p < 4; ++p) parts.push_back(4 * f + p);
+  }
+  return parts;
 }
 
 double Hydrostatics::head_axis_top(const Vec3& up) const {
@@ -160,6 +188,15 @@ bool Hydrostatics::clips(std::size_t c) const {
 
 void Hydrostatics::add_faces(const Points& x, const Indices& faces, const Vec3& up, double head,
                              bool clip, double w, Points& force) const {
+  if (m_mesh.is_quadratic()) {
+    for (Index f : faces) {
+      const QuadraticFace face(x, m_mesh, f, up);
+      const QuadraticFace::Load load = face.load(head, clip);
+      if (load.dry) continue;
+      for (std::size_t i = 0; i < 6; ++i) force.row(face.nodes()[i]) -= w * load.depth[i].transpose();
+    }
+    return;
+  }
   for (Index f : faces) {
     const Face face(x, m_mesh.surface(), f, up);
     const WetMoments m = wet_moments(face.heights, head, clip);
@@ -172,6 +209,9 @@ void Hydrostatics::add_faces(const Points& x, const Indices& faces, const Vec3& 
 void Hydrostatics::add_face_tangents(const Points& x, const Indices& faces, const Vec3& up,
                                      double head, bool clip, double w, const Indices& slot_of,
                                      BlockMatrix& K) const {
+  if (m_mesh.is_quadratic()) {
+    return add_quadratic_tangents(x, faces, up, head, clip, w, slot_of, K);
+  }
   for (Index f : faces) {
     const Face face(x, m_mesh.surface(), f, up);
     const WetMoments m = wet_moments(face.heights, head, clip);
@@ -187,6 +227,23 @@ void Hydrostatics::add_face_tangents(const Points& x, const Indices& faces, cons
       for (int j = 0; j <= i; ++j) {
         const Mat3 symmetric = 0.5 * (block(i, j) + block(j, i).transpose());
         K.add_at(slot_of[std::size_t(face.nodes[i])], slot_of[std::size_t(face.nodes[j])],
+                 symmetric);
+      }
+    }
+  }
+}
+
+void Hydrostatics::add_quadratic_tangents(const Points& x, const Indices& faces, const Vec3& up,
+                                          double head, bool clip, double w, const Indices& slot_of,
+                                          BlockMatrix& K) const {
+  QuadraticFace::Slopes slopes;
+  for (Index f : faces) {
+    const QuadraticFace face(x, m_mesh, f, up);
+    if (face.load(head, clip, slopes).dry) continue;
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        const Mat3 symmetric = 0.5 * w * (slopes[i][j] + slopes[j][i].transpose());
+        K.add_at(slot_of[std::size_t(face.nodes()[i])], slot_of[std::size_t(face.nodes()[j])],
                  symmetric);
       }
     }
@@ -230,8 +287,9 @@ Eigen::VectorXd Hydrostatics::nodal_pressure(const Points& x,
   Eigen::VectorXd pressure = Eigen::VectorXd::Zero(x.rows());
   for (std::size_t c = 0; c < m_compartments.size(); ++c) {
     for (Index f : m_compartments[c].wetted_faces) {
-      for (int k = 0; k < 3; ++k) {
-        const Index node = m_mesh.surface()(f, k);
+      for (int k = 0; k < (m_mesh.is_quadratic() ? 6 : 3); ++k) {
+        const Index node =
+            k < 3 ? m_mesh.surface()(f, k) : m_mesh.surface_edge_nodes()(f, k - 3);
         const double depth = heads[c] - x.row(node).dot(m_up);
         pressure[node] = weight_per_volume() * (clips(c) ? std::max(depth, 0.0) : depth);
       }

@@ -79,9 +79,16 @@ class Hydrostatics {
                  double w, Points& force) const;
   void add_face_tangents(const Points& x, const Indices& faces, const Vec3& up, double head,
                          bool clip, double w, const Indices& slot_of, BlockMatrix& K) const;
-  // Adds factor * a L_i: the gradient of the volume that the faces bound below the head.
-  void add_volume_gradient(const Points& x, const Indices& faces, double head, bool clip,
+  void add_quadratic_tangents(const Points& x, const Indices& faces, const Vec3& up, double head,
+                              bool clip, double w, const Indices& slot_of, BlockMatrix& K) const;
+  // Adds factor * a L_i: the gradient of the volume that the parts bound below the head.
+  void add_volume_gradient(const Points& x, const Indices& parts, double head, bool clip,
                            double factor, Points& gradient) const;
+  // Adds -w int N_i a: the slope of the force on the faces by the head.
+  void add_head_slope(const Points& x, const Indices& faces, double head, bool clip, double w,
+                      Points& slope) const;
+  void make_parts();
+  Indices parts_of(const Indices& faces) const;
 
   Mesh m_mesh;
   double m_density;
@@ -91,6 +98,8 @@ class Hydrostatics {
   std::vector<Group> m_groups;
   std::vector<std::size_t> m_group_of;
   std::vector<double> m_wall_volume, m_rest_tissue;  // mm^3
+  Triangles m_parts;                  // the surface in flat triangles; volumes are those they bound
+  std::vector<Indices> m_body_parts;  // per compartment
 
   Vec3 m_gravity, m_up, m_reference_gravity, m_reference_up;
   double m_reference_head = 0.0;  // along the reference axis

@@ -5,6 +5,7 @@
 
 #include "fluid/faces.hpp"
 #include "fluid/hydrostatics.hpp"
+#include "fluid/quadratic_face.hpp"
 
 namespace brainshift {
 namespace {
@@ -33,19 +34,19 @@ Hydrostatics::Body Hydrostatics::wall_below(std::size_t c, double head) const {
 
 Hydrostatics::Body Hydrostatics::tissue_below(std::size_t c, const Points& x, double head) const {
   Body body;
-  for (Index f : m_compartments[c].body_faces) {
-    add_below(Face(x, m_mesh.surface(), f, m_up), m_up, head, body.volume, body.section);
+  for (Index f : m_body_parts[c]) {
+    add_below(Face(x, m_parts, f, m_up), m_up, head, body.volume, body.section);
   }
   return body;
 }
 
 double Hydrostatics::tissue_volume(std::size_t c, const Points& x) const {
-  const Indices& faces = m_compartments[c].body_faces;
-  if (faces.empty()) return 0.0;
-  const Vec3 origin = x.row(m_mesh.surface()(faces.front(), 0)).transpose();
+  const Indices& parts = m_body_parts[c];
+  if (parts.empty()) return 0.0;
+  const Vec3 origin = x.row(m_parts(parts.front(), 0)).transpose();
   double sum = 0.0;
-  for (Index f : faces) {
-    const Face face(x, m_mesh.surface(), f, m_up);
+  for (Index f : parts) {
+    const Face face(x, m_parts, f, m_up);
     sum += (face.x[0] - origin).dot(face.area) / 6.0;
   }
   return sum;
@@ -124,15 +125,26 @@ std::vector<double> Hydrostatics::heads(const Points& x) const {
   return result;
 }
 
-void Hydrostatics::add_volume_gradient(const Points& x, const Indices& faces, double head,
+void Hydrostatics::add_volume_gradient(const Points& x, const Indices& parts, double head,
                                        bool clip, double factor, Points& gradient) const {
-  for (Index f : faces) {
-    const Face face(x, m_mesh.surface(), f, m_up);
+  for (Index f : parts) {
+    const Face face(x, m_parts, f, m_up);
     const WetMoments m = wet_moments(face.heights, head, clip);
     if (m.dry()) continue;
     for (int i = 0; i < 3; ++i) {
       gradient.row(face.nodes[i]) += (factor * m.L[i] * face.area).transpose();
     }
+  }
+}
+
+void Hydrostatics::add_head_slope(const Points& x, const Indices& faces, double head, bool clip,
+                                  double w, Points& slope) const {
+  if (!m_mesh.is_quadratic()) return add_volume_gradient(x, faces, head, clip, -w, slope);
+  for (Index f : faces) {
+    const QuadraticFace face(x, m_mesh, f, m_up);
+    const QuadraticFace::Load load = face.load(head, clip);
+    if (load.dry) continue;
+    for (std::size_t i = 0; i < 6; ++i) slope.row(face.nodes()[i]) -= w * load.area[i].transpose();
   }
 }
 
@@ -148,16 +160,15 @@ std::vector<RankOne> Hydrostatics::head_terms(const Points& x,
     double slope = head > m_full_head ? m_chimney : 0.0;
     for (std::size_t c : group.members) {
       const Compartment& compartment = m_compartments[c];
-      add_volume_gradient(x, compartment.wetted_faces, head, clips(c), -weight_per_volume(),
-                          term.column);
+      add_head_slope(x, compartment.wetted_faces, head, clips(c), weight_per_volume(), term.column);
       if (m_open[c]) {
         slope += wall_below(c, head).section - tissue_below(c, x, head).section;
-        add_volume_gradient(x, compartment.body_faces, head, true, -1.0, term.row);
+        add_volume_gradient(x, m_body_parts[c], head, true, -1.0, term.row);
       }
       const bool total = m_open[c] == (group.law == FluidLaw::air_volume);
       if (total) {
         const double sign = m_open[c] ? 1.0 : -1.0;
-        add_volume_gradient(x, compartment.body_faces, head, false, sign, term.row);
+        add_volume_gradient(x, m_body_parts[c], head, false, sign, term.row);
       }
     }
     // Near the top of the cavity the section vanishes; the chimney's keeps the term finite.

@@ -26,22 +26,31 @@ void add_part(const Vec3& b0, const Vec3& b1, const Vec3& b2, WetMoments& m) {
 
 }  // namespace
 
+WetPolygon wet_polygon(const Vec3& depth, bool clip) {
+  if (!clip || depth.minCoeff() >= 0.0) {
+    return {{Vec3::Unit(0), Vec3::Unit(1), Vec3::Unit(2), Vec3::Zero()}, 3};
+  }
+  WetPolygon polygon;
+  if (depth.maxCoeff() <= 0.0) return polygon;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    if (depth[i] >= 0.0) polygon.corners[polygon.count++] = Vec3::Unit(i);
+    if ((depth[i] > 0.0 && depth[j] < 0.0) || (depth[i] < 0.0 && depth[j] > 0.0)) {
+      const double t = depth[i] / (depth[i] - depth[j]);
+      polygon.corners[polygon.count++] = (1.0 - t) * Vec3::Unit(i) + t * Vec3::Unit(j);
+    }
+  }
+  return polygon;
+}
+
 WetMoments wet_moments(const Vec3& heights, double head, bool clip) {
   const Vec3 depth = Vec3::Constant(head) - heights;
   if (!clip || depth.minCoeff() >= 0.0) return whole();
-  if (depth.maxCoeff() <= 0.0) return {};
-  Vec3 polygon[4];
-  int count = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    if (depth[i] >= 0.0) polygon[count++] = Vec3::Unit(i);
-    if ((depth[i] > 0.0 && depth[j] < 0.0) || (depth[i] < 0.0 && depth[j] > 0.0)) {
-      const double t = depth[i] / (depth[i] - depth[j]);
-      polygon[count++] = (1.0 - t) * Vec3::Unit(i) + t * Vec3::Unit(j);
-    }
-  }
+  const WetPolygon polygon = wet_polygon(depth, clip);
   WetMoments m;
-  for (int k = 2; k < count; ++k) add_part(polygon[0], polygon[k - 1], polygon[k], m);
+  for (int k = 2; k < polygon.count; ++k) {
+    add_part(polygon.corners[0], polygon.corners[k - 1], polygon.corners[k], m);
+  }
   return m;
 }
 

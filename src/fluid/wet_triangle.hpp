@@ -20,6 +20,13 @@ struct WetMoments {
   bool dry() const { return L.isZero(0.0); }
 };
 
+// The wet part of a triangle: its corners in barycentric coordinates, none where it is dry.
+struct WetPolygon {
+  Vec3 corners[4];
+  int count = 0;
+};
+WetPolygon wet_polygon(const Vec3& depth, bool clip);
+
 // clip: only where height < head; otherwise the whole triangle is wet whatever its height.
 WetMoments wet_moments(const Vec3& heights, double head, bool clip);
 

@@ -10,7 +10,7 @@ namespace brainshift::io {
 
 namespace {
 
-constexpr int vtk_tetra = 10;
+constexpr int vtk_tetra = 10, vtk_quadratic_tetra = 24;
 
 // A number that should be whole, for a message.
 std::string show(double value) {
@@ -74,15 +74,22 @@ std::vector<Field> read_fields(const VtkDocument& document, const char* parent, 
   return fields;
 }
 
-void check_tets(const VtkDocument& document, std::size_t cells) {
+// True if the tets are quadratic.
+bool check_tets(const VtkDocument& document, std::size_t cells) {
   const Field types = read_array(document, required(document, "Cells", "types"), cells, 1);
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const double type = types.values(Eigen::Index(cell), 0);
-    if (type != vtk_tetra) {
+    if (type != vtk_tetra && type != vtk_quadratic_tetra) {
       fail(document.path(), "cell " + std::to_string(cell) + " is of VTK type " + show(type) +
-                                "; only linear tets (type 10) are read");
+                                "; only tets are read, linear (10) or quadratic (24)");
+    }
+    if (type != types.values(0, 0)) {
+      fail(document.path(), "cell " + std::to_string(cell) + " is of VTK type " + show(type) +
+                                ", cell 0 of type " + show(types.values(0, 0)) +
+                                "; linear and quadratic tets cannot be mixed");
     }
   }
+  return cells > 0 && types.values(0, 0) == vtk_quadratic_tetra;
 }
 
 }  // namespace
@@ -92,9 +99,16 @@ Grid read_vtu(const std::string& path) {
   const std::size_t cells = document.count("NumberOfCells");
   Grid grid;
   grid.points = read_points(document);
-  check_tets(document, cells);
-  check_offsets(document, "Cells", cells, 4, "linear tets");
-  grid.tets = read_cells<Tets>(document, "Cells", cells, std::size_t(grid.points.rows()));
+  if (check_tets(document, cells)) {
+    using TenNodes = Eigen::Matrix<Index, Eigen::Dynamic, 10, Eigen::RowMajor>;
+    check_offsets(document, "Cells", cells, 10, "quadratic tets");
+    const auto all = read_cells<TenNodes>(document, "Cells", cells, std::size_t(grid.points.rows()));
+    grid.tets = all.leftCols<4>();
+    grid.edge_nodes = all.rightCols<6>();
+  } else {
+    check_offsets(document, "Cells", cells, 4, "linear tets");
+    grid.tets = read_cells<Tets>(document, "Cells", cells, std::size_t(grid.points.rows()));
+  }
   grid.node_fields = read_fields(document, "PointData", std::size_t(grid.points.rows()));
   grid.cell_fields = read_fields(document, "CellData", cells);
   return grid;

@@ -20,7 +20,7 @@ namespace brainshift::io {
 namespace {
 
 constexpr std::size_t block_size = 1 << 16;  // bytes compressed together
-constexpr std::uint8_t vtk_tetra = 10;
+constexpr std::uint8_t vtk_tetra = 10, vtk_quadratic_tetra = 24;
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -166,6 +166,11 @@ void write_vtu(const std::string& path, const Grid& grid) {
   if (grid.triangles.rows() != 0 || grid.lines.rows() != 0) {
     fail(path, "not written: a VTU holds tets, the grid has lines or triangles");
   }
+  const bool quadratic = grid.edge_nodes.rows() > 0;
+  if (quadratic && grid.edge_nodes.rows() != grid.tets.rows()) {
+    fail(path, "not written: there are edge nodes for " + std::to_string(grid.edge_nodes.rows()) +
+                   " of " + std::to_string(grid.tets.rows()) + " tets");
+  }
   Document document(path, "UnstructuredGrid");
   document.line("<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
                 std::to_string(grid.points.rows()) + "\" NumberOfCells=\"" +
@@ -174,9 +179,16 @@ void write_vtu(const std::string& path, const Grid& grid) {
   document.fields("CellData", grid.cell_fields, grid.tets.rows());
   document.points(grid.points);
   document.line("<Cells>");
-  document.cells(grid.tets, grid.points.rows());
+  if (quadratic) {
+    Eigen::Matrix<Index, Eigen::Dynamic, 10, Eigen::RowMajor> all(grid.tets.rows(), 10);
+    all << grid.tets, grid.edge_nodes;
+    document.cells(all, grid.points.rows());
+  } else {
+    document.cells(grid.tets, grid.points.rows());
+  }
   document.array("UInt8", "types", 1,
-                 std::vector<std::uint8_t>(std::size_t(grid.tets.rows()), vtk_tetra));
+                 std::vector<std::uint8_t>(std::size_t(grid.tets.rows()),
+                                           quadratic ? vtk_quadratic_tetra : vtk_tetra));
   document.line("</Cells>\n</Piece>\n</UnstructuredGrid>");
   document.save();
 }

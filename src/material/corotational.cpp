@@ -51,8 +51,22 @@ void tangent(const Lame& lame, const Mat3& G, bool definite, Mat3& P, Mat9& A) {
   }
 }
 
+// tr(S - I); its gradient is R.
+VolumeMeasure volume(const Mat3& G) {
+  const Polar polar = polar_decomposition(G);
+  VolumeMeasure measure{polar.strain.sum(), polar.R, Mat9::Zero()};
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const double sum = std::max(2.0 + polar.strain[i] + polar.strain[j], smallest_stretch_sum);
+    const Mat3 mode = polar.R * skew(polar.V.col(k));
+    const Vec9 t = as_vector(mode);
+    measure.hessian.noalias() += (1.0 / sum) * t * t.transpose();
+  }
+  return measure;
+}
+
 }  // namespace
 
-const LawFunctions corotational_law = {energy, stress, tangent};
+const LawFunctions corotational_law = {energy, stress, tangent, volume};
 
 }  // namespace brainshift

@@ -12,11 +12,20 @@ struct Lame {
   double mu, lambda;  // kPa
 };
 
+struct VolumeMeasure {
+  double value;
+  Mat3 gradient;
+  Mat9 hessian;
+};
+
 struct LawFunctions {
   double (*energy)(const Lame&, const Mat3& G);
   Mat3 (*stress)(const Lame&, const Mat3& G);  // first Piola-Kirchhoff
   // stress and tangent dP/dF together (both are needed in an assembly); column-major 9-vectors
   void (*tangent)(const Lame&, const Mat3& G, bool definite, Mat3& P, Mat9& A);
+  // The measure theta of the change of volume whose square lambda multiplies, psi = psi(mu, 0) +
+  // lambda/2 theta^2, and its derivatives by F. An element that averages theta takes it apart so.
+  VolumeMeasure (*volume)(const Mat3& G);
 };
 
 }  // namespace brainshift

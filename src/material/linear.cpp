@@ -30,8 +30,10 @@ void tangent(const Lame& lame, const Mat3& G, bool, Mat3& P, Mat9& A) {
   }
 }
 
+VolumeMeasure volume(const Mat3& G) { return {G.trace(), Mat3::Identity(), Mat9::Zero()}; }
+
 }  // namespace
 
-const LawFunctions linear_law = {energy, stress, tangent};
+const LawFunctions linear_law = {energy, stress, tangent, volume};
 
 }  // namespace brainshift

@@ -91,8 +91,21 @@ void tangent(const Lame& lame, const Mat3& G, bool definite, Mat3& P, Mat9& A) {
   }
 }
 
+// ln J
+VolumeMeasure volume(const Mat3& G) {
+  const double change = volume_change(G), J = 1.0 + change;
+  if (!has_energy(change)) {
+    return {infinity, Mat3::Constant(infinity), Mat9::Constant(infinity)};
+  }
+  const Mat3 inverse = (Mat3::Identity() + cofactor_change(G)) / J;  // F^-T
+  const Vec9 f = as_vector(inverse);
+  VolumeMeasure measure{std::log1p(change), inverse, -f * f.transpose()};
+  add_cofactor_derivative(Mat3::Identity() + G, 1.0 / J, measure.hessian);
+  return measure;
+}
+
 }  // namespace
 
-const LawFunctions log_neo_hookean_law = {energy, stress, tangent};
+const LawFunctions log_neo_hookean_law = {energy, stress, tangent, volume};
 
 }  // namespace brainshift

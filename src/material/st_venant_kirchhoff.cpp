@@ -62,8 +62,13 @@ void tangent(const Lame& lame, const Mat3& G, bool definite, Mat3& P, Mat9& A) {
   }
 }
 
+// tr E
+VolumeMeasure volume(const Mat3& G) {
+  return {G.trace() + 0.5 * G.squaredNorm(), Mat3::Identity() + G, Mat9::Identity()};
+}
+
 }  // namespace
 
-const LawFunctions st_venant_kirchhoff_law = {energy, stress, tangent};
+const LawFunctions st_venant_kirchhoff_law = {energy, stress, tangent, volume};
 
 }  // namespace brainshift

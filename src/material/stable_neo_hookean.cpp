@@ -60,8 +60,15 @@ void tangent(const Lame& lame, const Mat3& G, bool definite, Mat3& P, Mat9& A) {
   }
 }
 
+// J - 1
+VolumeMeasure volume(const Mat3& G) {
+  VolumeMeasure measure{volume_change(G), Mat3::Identity() + cofactor_change(G), Mat9::Zero()};
+  add_cofactor_derivative(Mat3::Identity() + G, 1.0, measure.hessian);
+  return measure;
+}
+
 }  // namespace
 
-const LawFunctions stable_neo_hookean_law = {energy, stress, tangent};
+const LawFunctions stable_neo_hookean_law = {energy, stress, tangent, volume};
 
 }  // namespace brainshift

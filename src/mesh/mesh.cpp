@@ -14,6 +14,8 @@
 #include <Eigen/Geometry>
 
 #include "brainshift/error.hpp"
+#include "mesh/edge_nodes.hpp"
+#include "mesh/quadratic_tet.hpp"
 #include "mesh/surface_topology.hpp"
 #include "mesh/tet_locator.hpp"
 
@@ -22,15 +24,20 @@ namespace brainshift {
 struct Mesh::Data {
   Points nodes;
   Tets tets;
+  EdgeNodes edge_nodes;  // none if linear
+  Triangles surface_edge_nodes;
+  std::vector<char> corner;
   Indices regions;
   Index reoriented = 0;
   BoundaryFaces boundary;
   Components bodies;
 
+  double volume_of(Index t) const;
+
   // Made by the first call of locate(): most meshes are never asked.
   const TetLocator& locator() const {
     const std::lock_guard<std::mutex> lock(m_mutex);
-    if (!m_locator) m_locator.emplace(nodes, tets);
+    if (!m_locator) m_locator.emplace(nodes, tets, edge_nodes);
     return *m_locator;
   }
 
@@ -91,7 +98,7 @@ void check_indices(const Tets& tets, Index node_count) {
 }
 
 // Refuses flat tets; turns or refuses inverted ones. Returns how many were turned.
-Index check_volumes(const Points& nodes, Tets& tets, bool orient) {
+Index check_volumes(const Points& nodes, Tets& tets, EdgeNodes& edge_nodes, bool orient) {
   Index turned = 0;
   for (Eigen::Index i = 0; i < tets.rows(); ++i) {
     for (int a = 0; a < 4; ++a)
@@ -112,6 +119,10 @@ Index check_volumes(const Points& nodes, Tets& tets, bool orient) {
                   tet_name(i) + " has negative volume " + short_number(volume) + " mm^3 " +
                       node_list(tets, i) + "; turn it or set MeshOptions::orient");
     std::swap(tets(i, 2), tets(i, 3));
+    if (edge_nodes.rows() > 0) {  // 12 <-> 13, 02 <-> 03
+      std::swap(edge_nodes(i, 1), edge_nodes(i, 4));
+      std::swap(edge_nodes(i, 2), edge_nodes(i, 3));
+    }
     ++turned;
   }
   return turned;
@@ -139,9 +150,10 @@ void check_duplicates(const Tets& tets) {
                                                     node_list(tets, keys[i].tet));
 }
 
-void check_orphans(const Tets& tets, Index node_count) {
+void check_orphans(const Tets& tets, const EdgeNodes& edge_nodes, Index node_count) {
   std::vector<char> used(std::size_t(node_count), 0);
   for (Eigen::Index i = 0; i < tets.size(); ++i) used[std::size_t(tets.data()[i])] = 1;
+  for (Eigen::Index i = 0; i < edge_nodes.size(); ++i) used[std::size_t(edge_nodes.data()[i])] = 1;
   const auto orphan = std::find(used.begin(), used.end(), 0);
   if (orphan != used.end())
     throw Error(ErrorCode::orphan_node,
@@ -157,45 +169,101 @@ double dihedral(const Corners& tet, int from, int to, int left, int right) {
 
 }  // namespace
 
-Mesh::Mesh(Points nodes, Tets tets, Indices regions, MeshOptions options) {
+Mesh::Mesh(Points nodes, Tets tets, Indices regions, MeshOptions options)
+    : m_data(make(std::move(nodes), std::move(tets), {}, std::move(regions), options)) {}
+
+Mesh Mesh::with_edge_nodes(Points nodes, Tets tets, EdgeNodes edge_nodes, Indices regions,
+                           MeshOptions options) {
+  if (edge_nodes.rows() == 0) {
+    throw Error(ErrorCode::empty, "the mesh of quadratic tets has no edge nodes");
+  }
+  return Mesh(make(std::move(nodes), std::move(tets), std::move(edge_nodes), std::move(regions),
+                   options));
+}
+
+std::shared_ptr<const Mesh::Data> Mesh::make(Points nodes, Tets tets, EdgeNodes edge_nodes,
+                                             Indices regions, MeshOptions options) {
   check_sizes(nodes, tets, regions);
   require_finite(nodes, "nodes");
   const Index count = Index(nodes.rows());
   check_indices(tets, count);
+  if (edge_nodes.rows() > 0) check_edge_nodes(tets, edge_nodes, count);
   const auto data = std::make_shared<Data>();
-  data->reoriented = check_volumes(nodes, tets, options.orient);
+  data->reoriented = check_volumes(nodes, tets, edge_nodes, options.orient);
+  if (edge_nodes.rows() > 0) check_folds(nodes, tets, edge_nodes);
   check_duplicates(tets);
-  check_orphans(tets, count);
+  check_orphans(tets, edge_nodes, count);
   data->boundary = boundary_faces(tets);
   data->bodies = brainshift::components(count, tets);
+  data->corner.assign(std::size_t(count), 1);
+  if (edge_nodes.rows() > 0) {
+    data->bodies = brainshift::components(count, tets, edge_nodes);
+    data->surface_edge_nodes =
+        edge_nodes_of_faces(data->boundary.faces, data->boundary.tets, tets, edge_nodes);
+    for (Eigen::Index i = 0; i < edge_nodes.size(); ++i) {
+      data->corner[std::size_t(edge_nodes.data()[i])] = 0;
+    }
+  }
   if (regions.empty()) regions.assign(std::size_t(tets.rows()), 0);
   data->nodes = std::move(nodes);
   data->tets = std::move(tets);
+  data->edge_nodes = std::move(edge_nodes);
   data->regions = std::move(regions);
-  m_data = data;
+  return data;
+}
+
+Mesh Mesh::quadratic() const {
+  if (is_quadratic()) return *this;
+  const auto edges = edges_of(tets());
+  const std::int64_t most = std::numeric_limits<Index>::max() / 3;
+  const Index count =
+      checked_count(std::int64_t(node_count()) + std::int64_t(edges.size()), "quadratic nodes", most);
+  Points all(count, 3);
+  all.topRows(node_count()) = nodes();
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    all.row(node_count() + Eigen::Index(e)) =
+        0.5 * (nodes().row(edges[e].first) + nodes().row(edges[e].second));
+  }
+  EdgeNodes on_edges = number_edges(tets(), edges).array() + node_count();
+  return with_edge_nodes(std::move(all), tets(), std::move(on_edges), regions());
 }
 
 Index Mesh::node_count() const { return Index(m_data->nodes.rows()); }
 Index Mesh::tet_count() const { return Index(m_data->tets.rows()); }
 const Points& Mesh::nodes() const { return m_data->nodes; }
 const Tets& Mesh::tets() const { return m_data->tets; }
+bool Mesh::is_quadratic() const { return m_data->edge_nodes.rows() > 0; }
+const EdgeNodes& Mesh::edge_nodes() const { return m_data->edge_nodes; }
+bool Mesh::is_corner(Index node) const { return m_data->corner[std::size_t(node)] != 0; }
 const Indices& Mesh::regions() const { return m_data->regions; }
 Index Mesh::reoriented() const { return m_data->reoriented; }
 const Triangles& Mesh::surface() const { return m_data->boundary.faces; }
+const Triangles& Mesh::surface_edge_nodes() const { return m_data->surface_edge_nodes; }
 const Indices& Mesh::surface_tets() const { return m_data->boundary.tets; }
 const Indices& Mesh::components() const { return m_data->bodies.of_node; }
 Index Mesh::component_count() const { return m_data->bodies.count; }
 
+double Mesh::Data::volume_of(Index t) const {
+  if (edge_nodes.rows() == 0) return Corners(nodes, tets, t).volume();
+  const auto x = ten_rows(nodes, tets, edge_nodes, t);
+  double sum = 0.0;
+  for (const auto& point : tet_rule_5()) {
+    sum += point.weight * quadratic_jacobian(x, point.L).determinant();
+  }
+  return sum / 6.0;
+}
+
 double Mesh::volume() const {
   double sum = 0.0;
-  for (Eigen::Index i = 0; i < tets().rows(); ++i) sum += Corners(nodes(), tets(), i).volume();
+  for (Index t = 0; t < tet_count(); ++t) sum += m_data->volume_of(t);
   return sum;
 }
 
 double Mesh::volume(Index region) const {
   double sum = 0.0;
-  for (Eigen::Index i = 0; i < tets().rows(); ++i)
-    if (regions()[std::size_t(i)] == region) sum += Corners(nodes(), tets(), i).volume();
+  for (Index t = 0; t < tet_count(); ++t) {
+    if (regions()[std::size_t(t)] == region) sum += m_data->volume_of(t);
+  }
   return sum;
 }
 
@@ -250,7 +318,36 @@ Location Mesh::locate_deformed(const Points& points, const Points& positions,
                                               " positions for " + std::to_string(node_count()) +
                                               " nodes");
   require_finite(positions, "positions");
-  return TetLocator(positions, tets()).locate(points, tolerance);
+  return TetLocator(positions, tets(), edge_nodes()).locate(points, tolerance);
+}
+
+Interpolation Mesh::interpolation(Index tet, const Eigen::Vector4d& weights) const {
+  Interpolation result;
+  if (!is_quadratic()) {
+    result.count = 4;
+    for (int a = 0; a < 4; ++a) {
+      result.nodes[std::size_t(a)] = tets()(tet, a);
+      result.weights[std::size_t(a)] = weights[a];
+    }
+    return result;
+  }
+  result.count = 10;
+  result.nodes = ten_nodes(tets(), edge_nodes(), tet);
+  Eigen::Map<TenWeights>(result.weights.data()) = quadratic_shape(weights);
+  return result;
+}
+
+EdgeNodes from_gmsh_order(EdgeNodes edge_nodes) {
+  edge_nodes.col(4).swap(edge_nodes.col(5));
+  return edge_nodes;
+}
+
+Vec3 Interpolation::of(const Points& nodal) const {
+  Vec3 sum = Vec3::Zero();
+  for (int k = 0; k < count; ++k) {
+    sum += weights[std::size_t(k)] * nodal.row(nodes[std::size_t(k)]).transpose();
+  }
+  return sum;
 }
 
 }  // namespace brainshift

@@ -244,6 +244,12 @@ Components components(Index node_count, const Tets& tets) {
   return components_of(node_count, tets);
 }
 
+Components components(Index node_count, const Tets& tets, const EdgeNodes& edge_nodes) {
+  Eigen::Matrix<Index, Eigen::Dynamic, 10, Eigen::RowMajor> cells(tets.rows(), 10);
+  cells << tets, edge_nodes;
+  return components_of(node_count, cells);
+}
+
 Components components(Index node_count, const Triangles& triangles) {
   return components_of(node_count, triangles);
 }

@@ -46,6 +46,8 @@ struct Components {
 };
 
 Components components(Index node_count, const Tets& tets);
+// Quadratic tets, all ten nodes.
+Components components(Index node_count, const Tets& tets, const EdgeNodes& edge_nodes);
 Components components(Index node_count, const Triangles& triangles);
 
 }  // namespace brainshift

@@ -6,9 +6,12 @@
 #include <vector>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include "brainshift/error.hpp"
 #include "mesh/closest_point.hpp"
+#include "mesh/edge_nodes.hpp"
+#include "mesh/quadratic_tet.hpp"
 #include "mesh/surface_topology.hpp"
 
 namespace brainshift {
@@ -17,10 +20,18 @@ namespace {
 // Faces opposite to node k, all seen from the same side as the tet's orientation.
 constexpr int opposite[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
-std::vector<Box> tet_boxes(const Points& positions, const Tets& tets) {
+// A quadratic tet lies within the hull of its corners and the control points of its edges, 2 x_e -
+// (x_a + x_b) / 2 (its Bernstein form).
+std::vector<Box> tet_boxes(const Points& positions, const Tets& tets, const EdgeNodes& edge_nodes) {
   std::vector<Box> boxes(std::size_t(tets.rows()));
   for (Eigen::Index i = 0; i < tets.rows(); ++i)
     for (int k = 0; k < 4; ++k) boxes[std::size_t(i)].include(Vec3(positions.row(tets(i, k))));
+  for (Eigen::Index i = 0; i < edge_nodes.rows(); ++i)
+    for (int e = 0; e < 6; ++e) {
+      const auto a = positions.row(tets(i, tet_edges[e][0]));
+      const auto b = positions.row(tets(i, tet_edges[e][1]));
+      boxes[std::size_t(i)].include(Vec3(2.0 * positions.row(edge_nodes(i, e)) - 0.5 * (a + b)));
+    }
   return boxes;
 }
 
@@ -30,10 +41,11 @@ double diameter(const Points& positions) {
 
 }  // namespace
 
-TetLocator::TetLocator(const Points& positions, const Tets& tets)
+TetLocator::TetLocator(const Points& positions, const Tets& tets, const EdgeNodes& edge_nodes)
     : m_positions(positions),
       m_tets(tets),
-      m_tree(tet_boxes(positions, tets)),
+      m_edge_nodes(edge_nodes),
+      m_tree(tet_boxes(positions, tets, edge_nodes)),
       m_rounding(1e-12 * diameter(positions)) {}
 
 Location TetLocator::locate(const Points& points, double tolerance) const {
@@ -84,6 +96,7 @@ TetLocator::Hit TetLocator::nearest(const Vec3& point, double tolerance) const {
 }
 
 bool TetLocator::holds(Index tet, const Vec3& point, Eigen::Vector4d& weights) const {
+  if (m_edge_nodes.rows() > 0) return holds_curved(tet, point, weights);
   Vec3 x[4];
   for (int k = 0; k < 4; ++k) x[k] = m_positions.row(m_tets(tet, k)).transpose() - point;
   const double volume = (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]);
@@ -100,7 +113,48 @@ bool TetLocator::holds(Index tet, const Vec3& point, Eigen::Vector4d& weights) c
   return true;
 }
 
+bool TetLocator::invert(Index tet, const Vec3& point, Eigen::Vector4d& weights) const {
+  const auto nodes = ten_rows(m_positions, m_tets, m_edge_nodes, tet);
+  weights.setConstant(0.25);
+  constexpr int most = 50;
+  for (int i = 0; i < most; ++i) {
+    const Vec3 off = point - Vec3(nodes.transpose() * quadratic_shape(weights));
+    if (off.norm() <= 0.1 * m_rounding) return true;
+    const Mat3 slope = quadratic_jacobian(nodes, weights);
+    if (slope.determinant() == 0.0) return false;
+    Vec3 step = slope.inverse() * off;
+    if (!(step.norm() < 10.0)) return false;  // far outside, or where the map folds
+    step *= std::min(1.0, 0.5 / step.cwiseAbs().maxCoeff());
+    weights.tail<3>() += step;
+    weights[0] = 1.0 - weights.tail<3>().sum();
+    if (step.norm() <= 1e-15) return true;
+  }
+  return false;
+}
+
+bool TetLocator::holds_curved(Index tet, const Vec3& point, Eigen::Vector4d& weights) const {
+  if (!invert(tet, point, weights)) return false;
+  if (weights.minCoeff() >= 0.0) return true;
+  const Eigen::Vector4d inside = weights.cwiseMax(0.0) / weights.cwiseMax(0.0).sum();
+  const auto nodes = ten_rows(m_positions, m_tets, m_edge_nodes, tet);
+  if ((Vec3(nodes.transpose() * quadratic_shape(inside)) - point).norm() > 10.0 * m_rounding)
+    return false;
+  weights = inside;
+  return true;
+}
+
+// Of the point with the weights cut off at the faces: near enough for points just outside.
+double TetLocator::squared_distance_curved(Index tet, const Vec3& point,
+                                           Eigen::Vector4d& weights) const {
+  if (!invert(tet, point, weights)) return std::numeric_limits<double>::infinity();
+  weights = weights.cwiseMax(0.0).eval();
+  weights /= weights.sum();
+  const auto nodes = ten_rows(m_positions, m_tets, m_edge_nodes, tet);
+  return (Vec3(nodes.transpose() * quadratic_shape(weights)) - point).squaredNorm();
+}
+
 double TetLocator::squared_distance(Index tet, const Vec3& point, Eigen::Vector4d& weights) const {
+  if (m_edge_nodes.rows() > 0) return squared_distance_curved(tet, point, weights);
   double best = std::numeric_limits<double>::infinity();
   for (const int* face : opposite) {
     Vec3 x[3];

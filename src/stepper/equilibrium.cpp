@@ -11,12 +11,15 @@
 namespace brainshift {
 
 Equilibrium::Equilibrium(const Scene& scene)
-    : m_tissue(scene.mesh, scene.materials),
+    : m_tissue(scene.mesh, scene.materials, scene.volume_strain),
       m_adjacency(m_tissue.node_adjacency()),
       m_balanced(scene.balanced_reference),
       m_reference_gravity(scene.gravity) {
   if (!scene.gravity.allFinite()) {
     throw Error(ErrorCode::not_finite, "Scene: gravity is not finite");
+  }
+  if (mesh().is_quadratic()) {
+    for (Index i = 0; i < mesh().node_count(); ++i) m_silent.push_back(mesh().is_corner(i));
   }
   if (scene.csf) m_fluid.emplace(scene.mesh, *scene.csf, scene.gravity);
   // Forces of a millionth of E L^2 are far below any load that moves the body visibly.
@@ -55,7 +58,7 @@ void Equilibrium::configure(const ConstraintSet& constraints, const std::optiona
   const Indices& block_of = next.m_blocks->block_of();
   check_nodes(constraints, mesh().node_count());
   next.m_constraints = constraints;
-  next.m_contacts = ContactRows(constraints, block_of, mesh().nodes());
+  next.m_contacts = ContactRows(constraints, block_of, mesh().nodes(), m_silent);
   next.m_fixed.clear();
   next.m_springs.setZero(mesh().node_count());
   for (const ConstraintGroup& group : constraints.groups()) {

@@ -67,6 +67,7 @@ class Equilibrium {
   std::vector<Indices> m_adjacency;
   bool m_balanced;
   Vec3 m_reference_gravity;
+  std::vector<char> m_silent;        // corners of quadratic tets: no contact rows
   std::optional<Hydrostatics> m_fluid;
 
   ConstraintSet m_constraints;

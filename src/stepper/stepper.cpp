@@ -6,7 +6,9 @@
 
 #include "beam/text.hpp"
 #include "brainshift/error.hpp"
+#include "stepper/error_estimate.hpp"
 #include "stepper/stepper_impl.hpp"
+#include "stepper/stopwatch.hpp"
 
 namespace brainshift {
 
@@ -159,12 +161,9 @@ PointValues Stepper::displacement_at(const Points& rest_points) const {
                      where.tet};
   for (Eigen::Index i = 0; i < rest_points.rows(); ++i) {
     if (where.tet[std::size_t(i)] < 0) continue;
-    result.values.row(i).setZero();
-    for (int a = 0; a < 4; ++a) {
-      result.values.row(i) += where.weights(i, a) *
-                              m_impl->m_state.u.row(m_impl->m_mesh.tets()(
-                                  where.tet[std::size_t(i)], a));
-    }
+    const Interpolation at =
+        m_impl->m_mesh.interpolation(where.tet[std::size_t(i)], where.weights.row(i));
+    result.values.row(i) = at.of(m_impl->m_state.u);
   }
   return result;
 }
@@ -175,14 +174,41 @@ PointValues Stepper::rest_points_of(const Points& points) const {
                      where.tet};
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     if (where.tet[std::size_t(i)] < 0) continue;
-    result.values.row(i) = points.row(i);
-    for (int a = 0; a < 4; ++a) {
-      result.values.row(i) -= where.weights(i, a) *
-                              m_impl->m_state.u.row(m_impl->m_mesh.tets()(
-                                  where.tet[std::size_t(i)], a));
-    }
+    const Interpolation at =
+        m_impl->m_mesh.interpolation(where.tet[std::size_t(i)], where.weights.row(i));
+    result.values.row(i) = points.row(i) - at.of(m_impl->m_state.u).transpose();
   }
   return result;
+}
+
+ErrorEstimate Stepper::estimate_error(const Points& rest_points) const {
+  if (m_impl->m_mesh.is_quadratic()) {
+    throw Error(ErrorCode::invalid_argument, "the error estimate is for linear tets");
+  }
+  ErrorEstimate estimate;
+  {
+    const Stopwatch watch(estimate.seconds);
+    const Snapshot& state = m_impl->m_state;
+    Scene scene = m_impl->m_scene;
+    scene.constraints = state.solved.constraints;
+    scene = quadratic(scene);
+    Equilibrium fine(scene);
+    fine.configure(scene.constraints, state.solved.csf, state.solved.gravity);
+    const Equilibrium& coarse = m_impl->m_equilibrium;
+    const QuadraticCorrection found = quadratic_correction(
+        {coarse, state.u, m_impl->mechanical(coarse.contacts()).multipliers, state.devices}, fine);
+    estimate.iterations = found.iterations;
+    const Location where = found.mesh.locate(rest_points);
+    estimate.correction.setConstant(rest_points.rows(), 3, std::numeric_limits<double>::quiet_NaN());
+    for (Eigen::Index i = 0; i < rest_points.rows(); ++i) {
+      const Index tet = where.tet[std::size_t(i)];
+      if (tet < 0) continue;
+      const Interpolation at = found.mesh.interpolation(tet, where.weights.row(i).transpose());
+      estimate.correction.row(i) = at.of(found.w).transpose();
+    }
+    estimate.error = estimate.correction.rowwise().norm();
+  }
+  return estimate;
 }
 
 std::shared_ptr<const Stepper::Snapshot> Stepper::snapshot() const {

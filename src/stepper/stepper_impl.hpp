@@ -45,7 +45,8 @@ class Stepper::Impl {
   using State = Snapshot;
 
   Impl(Scene scene, StepperOptions options)
-      : m_mesh(scene.mesh), m_options(std::move(options)), m_equilibrium(scene), m_state(m_mesh) {
+      : m_mesh(scene.mesh), m_options(std::move(options)), m_equilibrium(scene), m_state(m_mesh),
+        m_scene(scene) {
     check_options();
     m_equilibrium.set_threads(m_options.threads);
     m_state.wanted = {std::move(scene.csf), std::move(scene.constraints), scene.gravity, {}};
@@ -145,6 +146,7 @@ class Stepper::Impl {
   StepperOptions m_options;
   Equilibrium m_equilibrium;
   Snapshot m_state;
+  Scene m_scene;             // as given: where the error estimate starts from
   FactorCache m_cache;
   std::unique_ptr<OpenSolve> m_open;
   bool m_in_phase = false;   // a callback must not end the solve it is called from

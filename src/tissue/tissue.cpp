@@ -3,17 +3,22 @@
 #include <algorithm>
 #include <string>
 
-#include <Eigen/LU>
-
 #include "brainshift/error.hpp"
 #include "material/mat9.hpp"
 #include "material/registry.hpp"
-#include "threads/for_chunks.hpp"
+#include "mesh/edge_nodes.hpp"
+#include "mesh/quadratic_tet.hpp"
+#include "tissue/tissue_loops.hpp"
 
 namespace brainshift {
 
-Tissue::Tissue(const Mesh& mesh, const std::vector<std::pair<Index, Material>>& materials)
+Tissue::Tissue(const Mesh& mesh, const std::vector<std::pair<Index, Material>>& materials,
+               VolumeStrain volume_strain)
     : m_mesh(mesh) {
+  if (volume_strain == VolumeStrain::nodal && mesh.is_quadratic()) {
+    throw Error(ErrorCode::invalid_argument,
+                "nodal volume strain is for linear tets, not quadratic");
+  }
   for (const auto& [region, material] : materials) {
     for (const auto& other : materials) {
       if (&other.second != &material && other.first == region) {
@@ -34,155 +39,111 @@ Tissue::Tissue(const Mesh& mesh, const std::vector<std::pair<Index, Material>>& 
                                                    ", which has no material");
     }
     m_parts[std::size_t(found - materials.begin())].tets.push_back(t);
-    m_elements.emplace_back(mesh.nodes(), mesh.tets(), t);
   }
+  make_elements();
+  if (volume_strain == VolumeStrain::nodal) average_volumes();
+}
+
+void Tissue::make_elements() {
+  m_connectivity.resize(m_mesh.tet_count(), nodes_per_tet());
+  m_connectivity.leftCols<4>() = m_mesh.tets();
+  if (m_mesh.is_quadratic()) {
+    m_connectivity.rightCols<6>() = m_mesh.edge_nodes();
+    m_elements = std::vector<Tet10>();
+  }
+  std::visit(
+      [&](auto& elements) {
+        elements.reserve(std::size_t(m_mesh.tet_count()));
+        for (Index t = 0; t < m_mesh.tet_count(); ++t) elements.emplace_back(m_mesh, t);
+      },
+      m_elements);
 }
 
 namespace {
 
-// Tets per chunk: long enough to be worth a thread, short enough for what a chunk keeps to stay in
-// the cache.
-constexpr Index tets_per_chunk = 512;
+bool same_law(const Material& a, const Material& b) {
+  return a.law() == b.law() && a.young() == b.young() && a.poisson() == b.poisson();
+}
 
 }  // namespace
 
-template <class Work>
-void Tissue::for_tets(const Part& part, Index from, Index to, const Work& work) const {
-  const LawFunctions& law = law_functions(part.material.law());
-  const Lame lame{part.material.mu(), part.material.lambda()};
-  const Index chunks = (to - from + tets_per_chunk - 1) / tets_per_chunk;
-  for_chunks(m_threads, chunks, [&](Index c) {
-    const ChunkRange range = chunk_range(to - from, chunks, c);
-    for (Index i = range.from; i < range.to; ++i) work(law, lame, from + i);
-  });
+// Regions of the same law and stiffness share their averages.
+void Tissue::average_volumes() {
+  std::vector<Indices> tets_of;
+  std::vector<double> lambda;
+  for (std::size_t p = 0; p < m_parts.size(); ++p) {
+    bool known = false;
+    for (std::size_t q = 0; q < p; ++q) known |= same_law(m_parts[p].material, m_parts[q].material);
+    if (known || m_parts[p].material.lambda() <= 0.0) continue;  // negative: nothing locks
+    tets_of.emplace_back();
+    lambda.push_back(m_parts[p].material.lambda());
+    for (const Part& part : m_parts) {
+      if (!same_law(part.material, m_parts[p].material)) continue;
+      tets_of.back().insert(tets_of.back().end(), part.tets.begin(), part.tets.end());
+    }
+    std::sort(tets_of.back().begin(), tets_of.back().end());
+  }
+  m_volume = NodalVolume(m_mesh, std::get<std::vector<Tet4>>(m_elements), tets_of, lambda);
 }
 
-template <class Work>
-void Tissue::for_all_tets(const Work& work) const {
-  for (const Part& part : m_parts) {
-    for_tets(part, 0, Index(part.tets.size()),
-             [&](const LawFunctions& law, const Lame& lame, Index i) {
-               work(law, lame, part.tets[std::size_t(i)]);
-             });
-  }
+Lame Tissue::element_constants(const Part& part) const {
+  Lame lame = lame_of(part.material);
+  if (!m_volume.empty()) lame.lambda = std::min(lame.lambda, 0.0);
+  return lame;
+}
+
+// Measures of the change of volume, and where `gradients` is given their gradients by F.
+std::vector<double> Tissue::volume_measures(const Points& u, std::vector<Mat3>* gradients) const {
+  const auto& elements = std::get<std::vector<Tet4>>(m_elements);
+  std::vector<double> theta(elements.size());
+  if (gradients) gradients->resize(elements.size());
+  for_all_tets([&](const LawFunctions& law, const Lame&, Index t) {
+    const VolumeMeasure m =
+        law.volume(elements[std::size_t(t)].displacement_gradient(u, nodes_of(t), 0));
+    theta[std::size_t(t)] = m.value;
+    if (gradients) (*gradients)[std::size_t(t)] = m.gradient;
+  });
+  return theta;
 }
 
 double Tissue::energy(const Points& u) const {
-  std::vector<double> energies(m_elements.size());
-  for_all_tets([&](const LawFunctions& law, const Lame& lame, Index t) {
-    const Tet4& e = m_elements[std::size_t(t)];
-    energies[std::size_t(t)] =
-        e.volume * law.energy(lame, e.displacement_gradient(u, m_mesh.tets(), t));
-  });
-  double sum = 0.0;   // in the order of the tets, whatever the threads
+  std::vector<double> energies(std::size_t(m_mesh.tet_count()), 0.0);
+  std::visit(
+      [&](const auto& elements) {
+        for_all_tets([&](const LawFunctions& law, const Lame& lame, Index t) {
+          const auto& e = elements[std::size_t(t)];
+          for (int q = 0; q < e.points; ++q) {
+            energies[std::size_t(t)] +=
+                e.volumes[q] * law.energy(lame, e.displacement_gradient(u, nodes_of(t), q));
+          }
+        });
+      },
+      m_elements);
+  double sum = 0.0;  // in the order of the tets, whatever the threads
   for (double energy : energies) sum += energy;
+  if (!m_volume.empty()) sum += m_volume.energy(volume_measures(u));
   return sum;
 }
 
-void Tissue::scatter(const std::vector<NodalForces>& forces, Points& nodal) const {
-  nodal.setZero(m_mesh.node_count(), 3);
-  for (std::size_t t = 0; t < forces.size(); ++t) {
-    for (int a = 0; a < 4; ++a) nodal.row(m_mesh.tets()(Index(t), a)) += forces[t].row(a);
-  }
-}
-
 void Tissue::internal_force(const Points& u, Points& force) const {
-  std::vector<NodalForces> forces(m_elements.size());
+  std::visit([&](const auto& elements) { element_forces(elements, u, force); }, m_elements);
+}
+
+template <class Element>
+void Tissue::element_forces(const std::vector<Element>& elements, const Points& u,
+                            Points& force) const {
+  std::vector<Mat3> gradients;
+  std::vector<double> pressures;
+  if (!m_volume.empty()) pressures = m_volume.pressures(volume_measures(u, &gradients));
+  std::vector<typename Element::Rows> forces(elements.size(), Element::Rows::Zero());
   for_all_tets([&](const LawFunctions& law, const Lame& lame, Index t) {
-    const Tet4& e = m_elements[std::size_t(t)];
-    const Mat3 P = law.stress(lame, e.displacement_gradient(u, m_mesh.tets(), t));
-    forces[std::size_t(t)] = e.volume * e.gradients * P.transpose();
+    const Element& e = elements[std::size_t(t)];
+    for (int q = 0; q < Element::points; ++q) {
+      Mat3 P = law.stress(lame, e.displacement_gradient(u, nodes_of(t), q));
+      if (!pressures.empty()) P += pressures[std::size_t(t)] * gradients[std::size_t(t)];
+      forces[std::size_t(t)] += e.volumes[q] * e.gradients[q] * P.transpose();
+    }
   });
-  scatter(forces, force);
-}
-
-ElementMap Tissue::map_elements(const Indices& slot_of, const BlockMatrix& K) const {
-  ElementMap map;
-  map.slots.reserve(std::size_t(10) * m_elements.size());
-  map.transposed.reserve(m_elements.size());
-  for (Index t = 0; t < m_mesh.tet_count(); ++t) {
-    std::uint16_t turned = 0;
-    int bit = 0;
-    for (int a = 0; a < 4; ++a) {
-      for (int b = 0; b <= a; ++b, ++bit) {
-        const Index i = slot_of[std::size_t(m_mesh.tets()(t, a))];
-        const Index j = slot_of[std::size_t(m_mesh.tets()(t, b))];
-        map.slots.push_back(K.slot(std::max(i, j), std::min(i, j)));
-        if (i < j) turned = std::uint16_t(turned | (1u << bit));
-        if (i == j && a != b) {
-          throw Error(ErrorCode::conflicting_constraints,
-                      "two nodes of tet " + std::to_string(t) + " are tied to each other");
-        }
-      }
-    }
-    map.transposed.push_back(turned);
-  }
-  return map;
-}
-
-namespace {
-
-// K_ab = V sum_jl  dN_a/dX_j  dP_ij/dF_kl  dN_b/dX_l  (docs/theory.md (3)).
-// A is 9 x 9 over column-major vectors: rows (i, j) -> i + 3 j.
-void element_blocks(const Mat9& A, const Tet4& e, Mat3 (&blocks)[10]) {
-  Eigen::Matrix<double, 9, 12> AB;  // column 3 b + k: dP for u_b along k
-  for (int b = 0; b < 4; ++b) {
-    AB.middleCols<3>(3 * b) = A.middleCols<3>(0) * e.gradients(b, 0) +
-                              A.middleCols<3>(3) * e.gradients(b, 1) +
-                              A.middleCols<3>(6) * e.gradients(b, 2);
-  }
-  AB *= e.volume;
-  int k = 0;
-  for (int a = 0; a < 4; ++a) {
-    for (int b = 0; b <= a; ++b, ++k) {
-      blocks[k] = e.gradients(a, 0) * AB.block<3, 3>(0, 3 * b) +
-                  e.gradients(a, 1) * AB.block<3, 3>(3, 3 * b) +
-                  e.gradients(a, 2) * AB.block<3, 3>(6, 3 * b);
-    }
-  }
-}
-
-void add_blocks(const Mat3 (&blocks)[10], const ElementMap& map, Index t, BlockMatrix& K) {
-  const BlockMatrix::Slot* slot = &map.slots[std::size_t(t) * 10];
-  for (int k = 0; k < 10; ++k) {
-    if (map.transposed[std::size_t(t)] >> k & 1u) {
-      K.add(slot[k], blocks[k].transpose());
-    } else {
-      K.add(slot[k], blocks[k]);
-    }
-  }
-}
-
-}  // namespace
-
-void Tissue::tangent(const Points& u, bool definite, const ElementMap& map, Points& force,
-                     BlockMatrix& K) const {
-  std::vector<NodalForces> forces(m_elements.size());
-  struct Blocks {
-    Mat3 block[10];
-  };
-  // Rounds of tets: computed by all threads, then added by one, in the order of the tets.
-  constexpr Index round = 8 * tets_per_chunk;
-  std::vector<Blocks> blocks(std::size_t(std::min(round, m_mesh.tet_count())));
-  for (const Part& part : m_parts) {
-    const auto count = Index(part.tets.size());
-    for (Index from = 0; from < count; from += round) {
-      const Index to = std::min(count, from + round);
-      for_tets(part, from, to, [&](const LawFunctions& law, const Lame& lame, Index i) {
-        const Index t = part.tets[std::size_t(i)];
-        const Tet4& e = m_elements[std::size_t(t)];
-        Mat3 P;
-        Mat9 A;
-        law.tangent(lame, e.displacement_gradient(u, m_mesh.tets(), t), definite, P, A);
-        forces[std::size_t(t)] = e.volume * e.gradients * P.transpose();
-        element_blocks(A, e, blocks[std::size_t(i - from)].block);
-      });
-      for (Index i = from; i < to; ++i) {
-        const Index t = part.tets[std::size_t(i)];
-        add_blocks(blocks[std::size_t(i - from)].block, map, t, K);
-      }
-    }
-  }
   scatter(forces, force);
 }
 
@@ -190,28 +151,53 @@ Points Tissue::gravity_force(const Vec3& gravity) const {
   Points force = Points::Zero(m_mesh.node_count(), 3);
   for (const Part& part : m_parts) {
     for (Index t : part.tets) {
-      const Vec3 quarter =
-          0.25 * part.material.density() * m_elements[std::size_t(t)].volume * gravity;
-      for (int a = 0; a < 4; ++a) force.row(m_mesh.tets()(t, a)) += quarter.transpose();
+      const Eigen::VectorXd shares =
+          m_mesh.is_quadratic() ? quadratic_volumes(t) : linear_volumes(t);
+      for (int a = 0; a < nodes_per_tet(); ++a) {
+        force.row(nodes_of(t)[a]) += part.material.density() * shares[a] * gravity.transpose();
+      }
     }
   }
   return force;
 }
 
+// int N_a over a tet, mm^3.
+Eigen::VectorXd Tissue::linear_volumes(Index t) const {
+  return Eigen::VectorXd::Constant(4, 0.25 * volume_of(t));
+}
+
+Eigen::VectorXd Tissue::quadratic_volumes(Index t) const {
+  const auto x = ten_rows(m_mesh.nodes(), m_mesh.tets(), m_mesh.edge_nodes(), t);
+  Eigen::VectorXd volumes = Eigen::VectorXd::Zero(10);
+  for (const TetQuadraturePoint& point : tet_rule_5()) {
+    const double weight = point.weight * quadratic_jacobian(x, point.L).determinant() / 6.0;
+    volumes += weight * quadratic_shape(point.L);
+  }
+  return volumes;
+}
+
+double Tissue::volume_of(Index t) const {
+  return std::visit([t](const auto& elements) { return elements[std::size_t(t)].volume(); },
+                    m_elements);
+}
+
 double Tissue::mass() const {
   double sum = 0.0;
   for (const Part& part : m_parts) {
-    for (Index t : part.tets) sum += part.material.density() * m_elements[std::size_t(t)].volume;
+    for (Index t : part.tets) sum += part.material.density() * volume_of(t);
   }
   return sum;
 }
 
 Eigen::VectorXd Tissue::node_masses() const {
   Eigen::VectorXd masses = Eigen::VectorXd::Zero(m_mesh.node_count());
+  const double corner = m_mesh.is_quadratic() ? 1.0 / 36.0 : 0.25, edge = 4.0 / 27.0;
   for (const Part& part : m_parts) {
     for (Index t : part.tets) {
-      const double quarter = 0.25 * part.material.density() * m_elements[std::size_t(t)].volume;
-      for (int a = 0; a < 4; ++a) masses[m_mesh.tets()(t, a)] += quarter;
+      const double mass = part.material.density() * volume_of(t);
+      for (int a = 0; a < nodes_per_tet(); ++a) {
+        masses[nodes_of(t)[a]] += mass * (a < 4 ? corner : edge);
+      }
     }
   }
   return masses;
@@ -219,22 +205,32 @@ Eigen::VectorXd Tissue::node_masses() const {
 
 Eigen::VectorXd Tissue::jacobians(const Points& u) const {
   Eigen::VectorXd result(m_mesh.tet_count());
-  for_all_tets([&](const LawFunctions&, const Lame&, Index t) {
-    const Tet4& e = m_elements[std::size_t(t)];
-    result[t] = 1.0 + volume_change(e.displacement_gradient(u, m_mesh.tets(), t));
-  });
+  std::visit(
+      [&](const auto& elements) {
+        for_all_tets([&](const LawFunctions&, const Lame&, Index t) {
+          const auto& e = elements[std::size_t(t)];
+          double least = 1.0 + volume_change(e.displacement_gradient(u, nodes_of(t), 0));
+          for (int q = 1; q < e.points; ++q) {
+            const double J = 1.0 + volume_change(e.displacement_gradient(u, nodes_of(t), q));
+            if (!(J >= least)) least = J;
+          }
+          result[t] = least;
+        });
+      },
+      m_elements);
   return result;
 }
 
 std::vector<Indices> Tissue::node_adjacency() const {
   std::vector<Indices> near(std::size_t(m_mesh.node_count()));
   for (Index t = 0; t < m_mesh.tet_count(); ++t) {
-    for (int a = 0; a < 4; ++a) {
-      for (int b = 0; b < 4; ++b) {
-        if (a != b) near[std::size_t(m_mesh.tets()(t, a))].push_back(m_mesh.tets()(t, b));
+    for (int a = 0; a < nodes_per_tet(); ++a) {
+      for (int b = 0; b < nodes_per_tet(); ++b) {
+        if (a != b) near[std::size_t(nodes_of(t)[a])].push_back(nodes_of(t)[b]);
       }
     }
   }
+  m_volume.extend(near);
   for (Indices& list : near) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());

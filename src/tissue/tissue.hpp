@@ -1,25 +1,31 @@
 // Assembly of the tissue: energy, internal forces and tangent stiffness of all tets.
 #pragma once
 
+#include <cstdint>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "brainshift/material.hpp"
 #include "brainshift/mesh.hpp"
 #include "linear/block_matrix.hpp"
-#include "tissue/tet4.hpp"
+#include "tissue/nodal_volume.hpp"
+#include "tissue/tet_element.hpp"
 
 namespace brainshift {
 
-// Where the ten lower blocks of each element go in a matrix; made once per matrix pattern.
+// Where the lower blocks of each element go in a matrix; made once per matrix pattern.
 struct ElementMap {
-  std::vector<BlockMatrix::Slot> slots;   // 10 per tet
-  std::vector<std::uint16_t> transposed;  // bit k: block k is stored transposed
+  std::vector<BlockMatrix::Slot> slots;   // 10 or 55 per tet
+  std::vector<std::uint64_t> transposed;  // bit k: block k is stored transposed
+  PatchMap patches;                       // of nodes that share a volume change
 };
 
 class Tissue {
  public:
-  Tissue(const Mesh& mesh, const std::vector<std::pair<Index, Material>>& materials);
+  // Throws invalid_argument: a region with no material or with two; nodal volumes on quadratic tets.
+  Tissue(const Mesh& mesh, const std::vector<std::pair<Index, Material>>& materials,
+         VolumeStrain volume_strain = VolumeStrain::element);
 
   const Mesh& mesh() const { return m_mesh; }
   // Threads that loops over tets may use; no result depends on it.
@@ -34,14 +40,17 @@ class Tissue {
   // semidefinite tangent.
   void tangent(const Points& u, bool definite, const ElementMap& map, Points& force,
                BlockMatrix& K) const;
-  // m/4 g on each node of a tet: N x 3 for gravity g (mm/s^2).
+  // Consistent with the shape functions: N x 3 for gravity g (mm/s^2).
   Points gravity_force(const Vec3& gravity) const;
   double mass() const;  // kg
-  // Lumped mass, N: a quarter of each tet's on its nodes (kg).
+  // Lumped mass, N (kg): a quarter of a linear tet's on each node; of a quadratic one 1/36 on each
+  // corner and 4/27 on each edge, in the ratio of the squared shape functions (Hinton, Rock,
+  // Zienkiewicz 1976), where row sums would be negative.
   Eigen::VectorXd node_masses() const;
 
-  Eigen::VectorXd jacobians(const Points& u) const;  // M; det F
-  // Neighbours of each node through tets, sorted.
+  // M; det F, of quadratic tets the smallest at their points of quadrature.
+  Eigen::VectorXd jacobians(const Points& u) const;
+  // Neighbours of each node in the stiffness, sorted.
   std::vector<Indices> node_adjacency() const;
   double stiffness_scale() const { return m_scale; }  // largest Young's modulus, kPa
 
@@ -50,19 +59,38 @@ class Tissue {
     Material material;
     Indices tets;
   };
-  using NodalForces = Eigen::Matrix<double, 4, 3, Eigen::RowMajor>;   // of one tet
+  using Elements = std::variant<std::vector<Tet4>, std::vector<Tet10>>;
 
+  int nodes_per_tet() const { return m_mesh.is_quadratic() ? 10 : 4; }
+  const Index* nodes_of(Index t) const { return &m_connectivity(t, 0); }
   // Calls work(law, its constants, i) for the tets i = from .. to - 1 of a part, in chunks that the
-  // threads share.
+  // threads share. Constants: without the part of the volume that nodes average.
   template <class Work>
   void for_tets(const Part& part, Index from, Index to, const Work& work) const;
   // Calls work(law, its constants, tet) for all tets.
   template <class Work>
   void for_all_tets(const Work& work) const;
-  void scatter(const std::vector<NodalForces>& forces, Points& nodal) const;
+  template <class Rows>
+  void scatter(const std::vector<Rows>& forces, Points& nodal) const;
+  template <class Element>
+  void element_forces(const std::vector<Element>& elements, const Points& u, Points& force) const;
+  template <class Element>
+  void element_tangents(const std::vector<Element>& elements, const Points& u, bool definite,
+                        const ElementMap& map, Points& force, BlockMatrix& K) const;
+  void make_elements();
+  void average_volumes();
+  Lame element_constants(const Part& part) const;
+  std::vector<double> volume_measures(const Points& u,
+                                      std::vector<Mat3>* gradients = nullptr) const;
+  Eigen::VectorXd linear_volumes(Index t) const;
+  Eigen::VectorXd quadratic_volumes(Index t) const;
+  double volume_of(Index t) const;
+
   Mesh m_mesh;
+  Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> m_connectivity;
   std::vector<Part> m_parts;
-  std::vector<Tet4> m_elements;
+  Elements m_elements;
+  NodalVolume m_volume;  // empty unless volumes are averaged at nodes
   double m_scale = 0.0;
   int m_threads = 1;
 };

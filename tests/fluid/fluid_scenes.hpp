@@ -15,8 +15,10 @@ constexpr double weight = fluid_density * standard_gravity;  // kPa/mm
 struct BallInCavity {
   Mesh mesh;
   Csf csf;
-  explicit BallInCavity(double radius = 30.0, int cells = 6, double cavity = 40.0)
-      : mesh(make_mesh(make_ball(radius, cells))),
+  explicit BallInCavity(double radius = 30.0, int cells = 6, double cavity = 40.0,
+                        bool quadratic = false)
+      : mesh(quadratic ? make_mesh(make_ball(radius, cells)).quadratic()
+                       : make_mesh(make_ball(radius, cells))),
         csf(fluid_density, FluidModel::separate,
             {make_compartment("all", make_icosphere(cavity, 3), all_faces(mesh))}) {}
 };

@@ -51,8 +51,8 @@ struct Case : test::BallInCavity {
   Hydrostatics fluid;
   Indices slots;
   Points x;
-  Case()
-      : BallInCavity(30.0, 2),
+  explicit Case(bool quadratic = false)
+      : BallInCavity(30.0, 2, 40.0, quadratic),
         fluid(mesh, csf, test::gravity_down),
         slots(test::all_nodes(mesh)),
         x(test::shaken(mesh, 2.0)) {}
@@ -87,6 +87,22 @@ TEST(FluidTangent, OfAnOpenSurfaceIsTheSymmetricPart) {
     return Eigen::VectorXd(-flat(test::force_at(c.fluid, x, {12.3})));
   });
   EXPECT_LT((K - 0.5 * (D + D.transpose())).cwiseAbs().maxCoeff(), 1e-6 * D.cwiseAbs().maxCoeff());
+}
+
+// The load on quadratic faces has its own symmetric part, whatever wets them: the depth is taken to
+// be linear over the quarters of a face.
+TEST(FluidTangent, OfQuadraticFacesIsTheSymmetricPart) {
+  const Case c(true);
+  for (double head : {45.0, 12.3, 0.7, -14.0}) {
+    const Dense K = c.tangent({head});
+    const Dense D = differences(c.x, 1e-4, [&](const Points& x) {
+      return Eigen::VectorXd(-flat(test::force_at(c.fluid, x, {head})));
+    });
+    EXPECT_LT((K - 0.5 * (D + D.transpose())).cwiseAbs().maxCoeff(),
+              1e-6 * D.cwiseAbs().maxCoeff())
+        << head;
+    EXPECT_LT((D - D.transpose()).cwiseAbs().maxCoeff(), 0.3 * D.cwiseAbs().maxCoeff()) << head;
+  }
 }
 
 TEST(FluidTangent, OfTheReferenceCancelsThatOfTheFullFluid) {
@@ -141,6 +157,26 @@ TEST(FluidTangent, HeadTermsMatchDifferencesForALostVolume) {
     c.fluid.configure(c.csf, test::gravity_down);
     check_head_terms(c.mesh, c.fluid, c.x, 0);
   }
+}
+
+TEST(FluidTangent, HeadTermsOfQuadraticFacesMatchDifferences) {
+  const auto flat_difference = [](const Points& a, const Points& b, double step) {
+    return Eigen::VectorXd(flat(a - b) / (2.0 * step));
+  };
+  Case c(true);
+  c.csf.set_lost_volume(0, 5e4);
+  c.fluid.configure(c.csf, test::gravity_down);
+  const std::vector<double> heads = c.fluid.heads(c.x);
+  const std::vector<RankOne> terms = c.fluid.head_terms(c.x, heads);
+  ASSERT_EQ(terms.size(), 1u);
+  const Eigen::VectorXd slope =
+      flat_difference(test::force_at(c.fluid, c.x, {heads[0] + 1e-4}),
+                      test::force_at(c.fluid, c.x, {heads[0] - 1e-4}), 1e-4);
+  EXPECT_LT((flat(terms[0].column) - slope).norm(), 1e-6 * slope.norm());
+  const Dense h = differences(c.x, 1e-3, [&](const Points& y) {
+    return Eigen::VectorXd(Eigen::VectorXd::Constant(1, -c.fluid.heads(y)[0]));
+  });
+  EXPECT_LT((flat(terms[0].row) - h.row(0).transpose()).norm(), 1e-5 * h.norm());
 }
 
 TEST(FluidTangent, HeadTermsMatchDifferencesForAnAirVolume) {

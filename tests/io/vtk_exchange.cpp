@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "brainshift/mesh.hpp"
 #include "io_test.hpp"
 
 namespace brainshift::io {
@@ -124,6 +125,28 @@ TEST(VtkExchange, VtkReadsOurFiles) {
   expect_vtk_reads(scratch / "a.vtp", three_triangles(), three_triangles().triangles, 5);
   write_vtp(scratch / "a.vtp", three_lines());
   expect_vtk_reads(scratch / "a.vtp", three_lines(), three_lines().lines, 3);
+}
+
+// The edges of VTK's quadratic tet are ours: on straight edges its middle nodes lie in the middle.
+TEST(VtkExchange, VtkFindsTheEdgesOfQuadraticTetsWhereTheyAre) {
+  if (!vtk_is_installed()) GTEST_SKIP() << "python3-vtk9 is not installed";
+  const Scratch scratch;
+  const Mesh mesh = Mesh(two_tets().points, two_tets().tets, {}, {true}).quadratic();
+  Grid grid;
+  grid.points = mesh.nodes();
+  grid.tets = mesh.tets();
+  grid.edge_nodes = mesh.edge_nodes();
+  write_vtu(scratch / "a.vtu", grid);
+  Eigen::Matrix<Index, Eigen::Dynamic, 10, Eigen::RowMajor> cells(grid.tets.rows(), 10);
+  cells << grid.tets, grid.edge_nodes;
+  expect_vtk_reads(scratch / "a.vtu", grid, cells, 24);
+  const Grid again = read_vtu(scratch / "a.vtu");
+  EXPECT_EQ(again.tets, grid.tets);
+  EXPECT_EQ(again.edge_nodes, grid.edge_nodes);
+  EXPECT_EQ(again.points, grid.points);
+  EXPECT_EQ(output_of("/usr/bin/python3 " + in_quotes(here / "edges_with_vtk.py") + " " +
+                      in_quotes(scratch / "a.vtu") + " 2>&1"),
+            "12 edges, largest distance of a node from the middle 0\n");
 }
 
 // Several compressed blocks, the last one full and not.

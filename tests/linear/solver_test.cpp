@@ -1,6 +1,7 @@
 // Sparse Cholesky against Eigen's dense one.
 #include "linear/spd_solver.hpp"
 
+#include <filesystem>
 #include <random>
 #include <thread>
 #include <vector>
@@ -123,6 +124,34 @@ TEST(SpdSolver, TheUpperHalfOfDiagonalBlocksIsIgnored) {
   solver->solve(x);
   EXPECT_LT((m.dense * x - b).norm(), 1e-13 * b.norm());
 }
+
+#ifdef __linux__
+// Supernodes of a dense block are large enough for the loops that CHOLMOD would share out.
+TEST(SpdSolver, LeavesNoThreadBehind) {
+  const auto threads = [] {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
+      count += entry.exists();
+    }
+    return count;
+  };
+  const std::size_t before = threads();
+  std::vector<Indices> near(600);
+  for (Index i = 0; i < 600; ++i) {
+    for (Index j = 0; j < 600; ++j) {
+      if (i != j && std::abs(i - j) < 150) near[std::size_t(i)].push_back(j);
+    }
+  }
+  BlockMatrix banded(near);
+  for (Index i = 0; i < 600; ++i) banded.add_at(i, i, 400.0 * Mat3::Identity());
+  const auto solver = make_spd_solver();
+  solver->analyse(banded);
+  ASSERT_TRUE(solver->factorise(banded));
+  Eigen::MatrixXd x = Eigen::MatrixXd::Ones(1800, 40);
+  solver->solve(x);
+  EXPECT_EQ(threads(), before);
+}
+#endif
 
 TEST(SpdSolver, TheSameMatrixGivesTheSameBits) {
   const test::RandomMatrix m(150, 7);

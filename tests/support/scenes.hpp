@@ -55,6 +55,9 @@ inline Indices surface_nodes(const Mesh& mesh) {
   std::vector<bool> outside(std::size_t(mesh.node_count()), false);
   for (Eigen::Index f = 0; f < mesh.surface().rows(); ++f) {
     for (int k = 0; k < 3; ++k) outside[std::size_t(mesh.surface()(f, k))] = true;
+    for (int k = 0; k < 3 && mesh.is_quadratic(); ++k) {
+      outside[std::size_t(mesh.surface_edge_nodes()(f, k))] = true;
+    }
   }
   Indices found;
   for (Index i = 0; i < mesh.node_count(); ++i) {

@@ -83,25 +83,24 @@ def lead(runs, path):
 
 
 def tornado(runs, measure, title, path):
-    figure, axes = plt.subplots(len(STUDIED), len(PAPER), figsize=(10, 4.2 * len(STUDIED)),
-                                squeeze=False, sharey=True)
+    figure, axes = plt.subplots(1, len(STUDIED), figsize=(4.6 * len(STUDIED), 4.6), squeeze=False,
+                                sharey=True)
     names = list(SENSITIVITY)
-    for row, preset in zip(axes, STUDIED):
-        for axis, volume in zip(row, PAPER):
-            base = runs[preset, volume, "base", 0]
-            axis.set_title(f"{preset}, {volume} mL", fontsize=9)
-            if not base.converged:
-                continue
-            middle = measure(base)
-            for y, name in enumerate(names):
-                for i, colour in ((0, "tab:cyan"), (1, "tab:purple")):
-                    run = runs.get((preset, volume, name, i))
-                    if run is None or not run.converged:
-                        continue
-                    axis.barh(y, measure(run) - middle, left=middle, color=colour, alpha=0.75)
-            axis.axvline(middle, color="k", linewidth=0.8)
-            axis.set_yticks(range(len(names)), names, fontsize=7)
+    for axis, scene in zip(axes[0], STUDIED):
+        base = runs[scene, "base", 0]
+        axis.set_title(f"{scene[0]}, {scene[1]}, {scene[2]} mL", fontsize=9)
+        if not base.converged:
+            continue
+        middle = measure(base)
+        for y, name in enumerate(names):
+            for i, colour in ((0, "tab:cyan"), (1, "tab:purple")):
+                run = runs.get((scene, name, i))
+                if run is None or not run.converged:
+                    continue
+                axis.barh(y, measure(run) - middle, left=middle, color=colour, alpha=0.75)
+        axis.axvline(middle, color="k", linewidth=0.8)
+        axis.set_yticks(range(len(names)), names, fontsize=7)
     axes[0][0].invert_yaxis()   # of all: they share it
-    for axis in axes[-1]:
+    for axis in axes[0]:
         axis.set_xlabel(title + ", mm (blue: first named end, purple: second)", fontsize=8)
     save(figure, path)

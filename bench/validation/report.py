@@ -16,7 +16,24 @@ motion of the right STN at recovery. Bow y: component of the bow's direction for
     "sensitivity": ("Which choices decide", "One choice changed at a time."),
     "movers": ("What moves a lead", "Default preset, 40 mL of air on both sides."),
     "ablation": ("What a scene needs", """Default preset, 22 mL on both sides: at the end of testing on the right, and after recovery. Seconds
-are of this machine and depend on what runs beside; ratios mean more."""),
+are of this machine and depend on what runs beside; ratios mean more.
+
+What may be left out, asked at the target and for losses like this one:
+
+- **the second side**, as long as the first is operated on: nothing changes before it is opened, and more
+  than half of the time is saved; the shift left after recovery is that of one side then;
+- **the devices**, if the question is the shift after recovery: two thirds of the time; not while a cannula
+  is in, which holds the target back;
+- **inertia**: a step in time ends where statics does and costs several times as much;
+- **another law than the co-rotational one, the hold of the brainstem, the falx**: below a tenth of a
+  millimetre here. The falx counts where the sides lose different amounts (see the claims), the law where
+  strain is large;
+- **contact with the skull**: next to nothing here, where the loss lets the brain sink away from most of it.
+  It costs nothing either, and is what stops a brain that sinks further: leave it in.
+
+What may not: **the other half** of the brain (held still, it holds the target), **fluid that passes between
+the sides**, **the image's balance with gravity and fluid** (read as free of load, gravity is counted
+twice), and **the tether**, without which the target moves more than twice as far."""),
     "uncertainty": ("Uncertainty", """Right side only; stiffness, lead stiffness, friction and loss drawn evenly in the logarithm, Poisson's
 ratio and elevation evenly, from a fixed seed. Linearised: central values and one finite difference
 each."""),
@@ -49,7 +66,7 @@ def write_page(path, done, long):
         parts += [f"![{title}](pictures/validation_{f}.png)\n" for f in FIGURES.get(name, [])]
         shown = table
         if name == "sensitivity":   # the CSV holds every figure
-            columns = [0, 1, 2, 3, 6, 7, 8]
+            columns = [0, 1, 2, 3, 4, 7, 8, 9]
             shown = [[row[c] if c < len(row) else "" for c in columns] for row in table]
         parts.append(markdown(shown) + "\n")
     path.write_text("\n".join(parts))

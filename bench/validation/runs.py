@@ -59,7 +59,8 @@ class Runner:
         self.build = hashlib.sha256(Path(program).read_bytes()).hexdigest()[:12]
         folder.mkdir(parents=True, exist_ok=True)
         self.program = str(folder / f"dbs-{self.build}")   # a build in the meantime does not matter
-        shutil.copy2(program, self.program)
+        if not Path(self.program).is_file():
+            shutil.copy2(program, self.program)
         self.done = 0
 
     def folder_of(self, options):
@@ -80,8 +81,8 @@ class Runner:
         print(f"\r  {self.done} runs ", end="", file=sys.stderr, flush=True)
         return Run(folder)
 
-    def all(self, cases):
+    def all(self, cases, jobs=None):
         """cases: name -> options. The runs, by name, in the same order."""
-        with ThreadPoolExecutor(self.jobs) as pool:
+        with ThreadPoolExecutor(jobs or self.jobs) as pool:
             runs = pool.map(self.run, cases.values())
             return dict(zip(cases, runs))

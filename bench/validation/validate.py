@@ -15,7 +15,7 @@ from runs import Runner
 
 ROOT = Path(__file__).resolve().parents[2]
 SWEEP = {"short": (22, 62), "long": (5, 12, 22, 35, 50, 62, 70)}
-SAMPLES = 40
+SAMPLES = 24
 
 
 def parse():
@@ -24,6 +24,7 @@ def parse():
     parser.add_argument("--long", dest="tier", action="store_const", const="long")
     parser.add_argument("--head", type=Path, default=ROOT / "examples/head/data/coarse")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--program", type=Path, default=ROOT / "build/release/examples/dbs/dbs")
     parser.add_argument("--write-docs", action="store_true")
     return parser.parse_args()
 
@@ -35,7 +36,7 @@ def main():
     docs = ROOT / "docs" if options.write_docs else out
     pictures = docs / "pictures"
     pictures.mkdir(parents=True, exist_ok=True)
-    runner = Runner(str(ROOT / "build/release/examples/dbs/dbs"), options.head, out / "runs",
+    runner = Runner(str(options.program), options.head, out / "runs",
                     options.jobs)
     long = options.tier == "long"
     start = time.monotonic()
@@ -48,6 +49,8 @@ def main():
         print(f"\r{name}: {len(runs)} runs, {time.monotonic() - start:.0f} s so far")
         refused.extend(key for key, run in runs.items() if run.refused)
 
+    if long:
+        study("ablation")   # first: timed, one after the other
     study("sweep", SWEEP[options.tier])
     table = studies.paper_table(done["sweep"][1])
     report.write_csv(out / "paper.csv", table)
@@ -56,7 +59,6 @@ def main():
     if long:
         study("sensitivity")
         study("movers")
-        study("ablation")
         study("uncertainty", SAMPLES)
         data = ROOT / "examples/head/data"
         study("mesh", {"coarse": data / "coarse", "medium": data / "medium",

@@ -46,6 +46,7 @@ Hold Electrode::cannula_hold() const {
 TrackOptions Electrode::track() const {
   TrackOptions options;
   options.shear_bound = m_options.friction;
+  options.local_give = m_options.local_give;
   return options;
 }
 

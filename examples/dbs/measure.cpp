@@ -80,6 +80,13 @@ void TissueMeasures::fill(const Stepper& stepper, StageResult& result) const {
   }
 }
 
+void TissueMeasures::estimate_errors(const Stepper& stepper, StageResult& result) const {
+  const ErrorEstimate estimate = stepper.estimate_error(m_landmarks);
+  for (std::size_t i = 0; i < m_names.size(); ++i) {
+    result.errors[m_names[i]] = estimate.error[Eigen::Index(i)];
+  }
+}
+
 TipMark::TipMark(const Stepper& stepper, const Vec3& tip)
     : m_tip(tip), m_rest(stepper.rest_points_of(tip.transpose())) {}
 

@@ -36,6 +36,7 @@ struct StageResult {
   double surface_motion[2];        // mm; largest of the side's outer surface
   double midline_shift;            // mm, positive to the right; mean of the nodes facing the falx
   std::map<std::string, Vec3> shifts;   // mm, of the landmarks
+  std::map<std::string, double> errors;   // mm, of the mesh in their shifts; empty unless asked for
   std::optional<LeadResult> lead[2];    // by Side
   std::string remark;              // a sentence; empty: none
 };   // all motions count from stage 0
@@ -47,6 +48,7 @@ class TissueMeasures {
   void set_reference(const Stepper& stepper);   // stage 0
   const Points& reference() const { return m_before; }   // displacement at stage 0
   void fill(const Stepper& stepper, StageResult& result) const;
+  void estimate_errors(const Stepper& stepper, StageResult& result) const;
 
  private:
   void prepare_landmarks();

@@ -81,6 +81,8 @@ void add_electrodes(CLI::App& app, Options& o) {
   group->add_option("--bending", o.bending, "EI of the lead, N mm^2 (default: the table's)");
   group->add_option("--friction", o.friction, "largest shear between device and tissue, kPa")
       ->capture_default_str();
+  group->add_flag("--local-give", o.local_give, "ties give way by what tets wider than the device leave "
+                  "out of the tissue's softness");
   group->add_option("--tip-hold", o.tip_hold, "friction besides, at the tip, once the cannula has "
                                               "left, mN")->capture_default_str();
   group->add_option("--slack", o.slack, "the wire slides this far at the burr hole before the skull "
@@ -156,6 +158,7 @@ int parse(int argc, char** argv, Options& o) {
                                  "leave the electrodes nearest their targets");
   app.add_flag("--files,!--no-files", o.files, "write results to --out");
   app.add_flag("--vtk,!--no-vtk", o.vtk, "VTU and VTP files among them");
+  app.add_flag("--estimate", o.estimate, "estimate by how much the mesh has the landmarks wrong (stages.json)");
   app.add_option("--threads", o.threads, "of the solver; no result depends on it")
       ->capture_default_str()->check(CLI::Range(1, 256));
   app.add_flag("--quiet", o.quiet, "no progress");

@@ -60,8 +60,10 @@ struct Options {
   double tip_hold = 0.0;          // mN of friction besides, at the tip, once the cannula has left
   double slack = 0.0;             // mm the wire may slide at the burr hole before the skull holds it
   bool clamped = false;           // the wire's tangent is held at the burr hole too
+  bool local_give = false;        // ties give way by what tets wider than the device leave out
   double cannula_depth = 0.0;     // mm the cannula ends short of the target
   bool elastic_cannula = false;   // a steel beam held at the burr hole, instead of a rigid one
+  bool estimate = false;          // the error of the mesh at the landmarks, stage by stage
   bool plan = false;              // look for choices that leave the electrodes nearest their targets
   int threads = 1;
   bool falx = true, skull = true, balanced = true, files = true, vtk = true, quiet = false;

@@ -155,6 +155,7 @@ StageResult Procedure::run(const Stage& stage) {
   }
   if (result.report.converged()) mark(stage);
   m_tissue.fill(m_stepper, result);
+  if (m_options.estimate && result.report.converged()) m_tissue.estimate_errors(m_stepper, result);
   for (int side : {left, right}) result.fluid[side].lost_volume -= m_side[side].lost_before;
   for (int side : {left, right}) {
     if (m_side[side].device >= 0) result.lead[side] = measure_lead(side);

@@ -79,7 +79,8 @@ nlohmann::json to_json(const StageResult& s) {
   }
   return {{"stage", s.label}, {"title", s.title}, {"remark", s.remark}, {"sides", sides},
           {"brain_volume_lost_mL", ml(s.tissue_loss)}, {"midline_shift_mm", s.midline_shift},
-          {"shift_mm", shifts}, {"electrodes", leads}, {"solve", to_json(s.report)}};
+          {"shift_mm", shifts}, {"error_estimate_mm", s.errors}, {"electrodes", leads},
+          {"solve", to_json(s.report)}};
 }
 
 nlohmann::json to_json(const Options& o) {
@@ -95,7 +96,7 @@ nlohmann::json to_json(const Options& o) {
           {"lateral_deg", number(o.lateral)}, {"devices", o.devices}, {"aim", o.aim}, {"offset_right_mm", o.offset_right},
           {"offset_left_mm", o.offset_left}, {"contact", o.contact}, {"lead", o.lead},
           {"test_electrode", o.test_electrode}, {"bending_Nmm2", o.bending},
-          {"friction_kPa", o.friction}, {"tip_hold_mN", o.tip_hold}, {"slack_mm", o.slack}, {"clamped", o.clamped},
+          {"friction_kPa", o.friction}, {"local_give", o.local_give}, {"tip_hold_mN", o.tip_hold}, {"slack_mm", o.slack}, {"clamped", o.clamped},
           {"cannula_depth_mm", o.cannula_depth}, {"elastic_cannula", o.elastic_cannula}};
 }
 

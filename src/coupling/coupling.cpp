@@ -63,10 +63,12 @@ std::vector<CouplingRow> Coupling::rows(const Points& u,
       const Vec3 first = across(tangent, state.R[std::size_t(foot.place.element)]);
       const Vec3 second = tangent.cross(first);
       const Vec3 off = x - foot.position;
-      rows.push_back({d, p, 0, RowKind::across, first, foot.place, first.dot(off), -unbounded,
-                      unbounded});
-      rows.push_back({d, p, 1, RowKind::across, second, foot.place, second.dot(off), -unbounded,
-                      unbounded});
+      const double give = device.path[p].give;
+      const Vec3 given = give * motions[d].multipliers[p];
+      rows.push_back({d, p, 0, RowKind::across, first, foot.place, first.dot(off) + given[0],
+                      -unbounded, unbounded, give});
+      rows.push_back({d, p, 1, RowKind::across, second, foot.place, second.dot(off) + given[1],
+                      -unbounded, unbounded, give});
       const double arc = arc_of(device.beam, foot.place), from = m_start_arcs[d][p];
       const double bound = friction_bound(device, p, arc);
       if (bound > 0.0) {

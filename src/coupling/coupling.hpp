@@ -29,6 +29,7 @@ struct CouplingRow {
   BeamPoint place;
   double gap;            // mm; across: distance still open; along: slip since the last solve
   double lower, upper;   // mN, bounds of the multiplier
+  double give = 0.0;     // mm/mN; the gap counts give * multiplier in, what tissue at the device gives way
 
   bool one_sided() const { return kind == RowKind::anchor_stop; }
   bool bilateral() const { return kind == RowKind::across || kind == RowKind::anchor_across; }

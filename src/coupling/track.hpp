@@ -12,6 +12,7 @@ struct PathPoint {
   Eigen::Vector4d weights;  // barycentric (natural, if quadratic); a point on a face between two tets has one zero
   double arc;               // mm from the tip when it was found
   double length;            // mm of the track it stands for
+  double give = 0.0;        // mm/mN; of its ties, see local_give.hpp
 };
 
 // Crossings of the segment from `tip` along `outward` (unit) with faces of the deformed tets, from

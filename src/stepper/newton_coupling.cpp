@@ -274,7 +274,7 @@ void Newton::couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step
   for (Eigen::Index r = 0; r < count; ++r) {
     const CouplingRow& row = m_couplings[std::size_t(r)];
     forces.col(1 + r) = m_coupling.tissue_gradient(row, m_eq.blocks());
-    problem.q[r] = row.gap;
+    problem.q[r] = row.gap - row.give * multiplier_of(m_state.devices[row.device], row);
     problem.lower[r] = row.lower;
     problem.upper[r] = row.upper;
   }
@@ -293,6 +293,7 @@ void Newton::couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step
   problem.C = arrange(forces);
   problem.Z = arrange(moved);
   problem.W = problem.C.transpose() * problem.Z;
+  for (Eigen::Index r = 0; r < count; ++r) problem.W(r, r) += m_couplings[std::size_t(r)].give;
   problem.q += problem.C.transpose() * free_dx;
   add_devices(problem);
   problem.eliminate_turns();
@@ -306,7 +307,7 @@ void Newton::couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step
   pushed += problem.C * step.pushed;
 }
 
-// First-order fall of the merit E + sum bound |slip| + weight * sum |open tie|.
+// First-order fall of the merit E + sum bound |slip| + weight * sum |open tie| + sum give/2 multiplier^2.
 void Newton::predict(Step& step) const {
   step.predicted = step.slope;
   for (Eigen::Index r = 0; r < step.coupling.size(); ++r) {
@@ -317,7 +318,9 @@ void Newton::predict(Step& step) const {
   for (Eigen::Index r = 0; r < step.coupling.size(); ++r) {
     const CouplingRow& row = m_couplings[std::size_t(r)];
     if (row.kind != RowKind::along) {
-      step.predicted += step.weight * open_gap(row, row.gap);
+      const double multiplier = multiplier_of(m_state.devices[row.device], row);
+      step.predicted += step.weight * open_gap(row, row.gap) -
+                        row.give * multiplier * (step.coupling[r] - multiplier);
       continue;
     }
     double change =
@@ -331,7 +334,9 @@ double Newton::merit_of_rows(const MechanicalState& state, double weight) const 
   if (m_coupling.empty()) return 0.0;
   double sum = 0.0;
   for (const CouplingRow& row : m_coupling.rows(state.u, state.devices)) {
-    sum += (row.kind == RowKind::along ? row.upper : weight) * open_gap(row, row.gap);
+    const double multiplier = multiplier_of(state.devices[row.device], row);
+    sum += (row.kind == RowKind::along ? row.upper : weight) * open_gap(row, row.gap) +
+           0.5 * row.give * multiplier * multiplier;
   }
   return sum;
 }

@@ -13,6 +13,7 @@
 #include "brainshift/error.hpp"
 #include "brainshift/stepper.hpp"
 #include "coupling/coupling.hpp"
+#include "coupling/local_give.hpp"
 #include "stepper/equilibrium.hpp"
 #include "stepper/newton.hpp"
 #include "stepper/solve.hpp"
@@ -133,6 +134,11 @@ class Stepper::Impl {
       values[Eigen::Index(contacts.row(r).item)] = m.multipliers[r];
     }
     return next;
+  }
+
+  void set_give(InsertedDevice& device) const {
+    if (!device.options.local_give) return;
+    set_local_give(m_equilibrium.tissue(), device.beam.device().section(0).radius, device.path);
   }
 
   InsertedDevice& device(DeviceId id) {

@@ -38,10 +38,16 @@ Tissue::Tissue(const Mesh& mesh, const std::vector<std::pair<Index, Material>>& 
                                                    std::to_string(region) +
                                                    ", which has no material");
     }
-    m_parts[std::size_t(found - materials.begin())].tets.push_back(t);
+    const auto part = std::size_t(found - materials.begin());
+    m_parts[part].tets.push_back(t);
+    m_part_of[region] = part;
   }
   make_elements();
   if (volume_strain == VolumeStrain::nodal) average_volumes();
+}
+
+const Material& Tissue::material_of(Index t) const {
+  return m_parts[m_part_of.at(m_mesh.regions()[std::size_t(t)])].material;
 }
 
 void Tissue::make_elements() {

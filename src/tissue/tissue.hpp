@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -28,6 +29,8 @@ class Tissue {
          VolumeStrain volume_strain = VolumeStrain::element);
 
   const Mesh& mesh() const { return m_mesh; }
+  const Material& material_of(Index t) const;
+  bool averages_volume() const { return !m_volume.empty(); }
   // Threads that loops over tets may use; no result depends on it.
   void set_threads(int threads) { m_threads = threads; }
 
@@ -89,6 +92,7 @@ class Tissue {
   Mesh m_mesh;
   Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> m_connectivity;
   std::vector<Part> m_parts;
+  std::map<Index, std::size_t> m_part_of;  // by region
   Elements m_elements;
   NodalVolume m_volume;  // empty unless volumes are averaged at nodes
   double m_scale = 0.0;

@@ -105,6 +105,7 @@ bool Newton::reuse_factor() {
 bool Newton::find_step() {
   if (!factorise_devices()) return false;
   choose_active();
+  m_lost_stability = m_definite;
   for (int change = 0;;) {
     const Reduction reduction = make_reduction();
     reduction.reduce(m_cache.stiffness, m_cache.stiffness.mean_diagonal(), m_cache.reduced);
@@ -113,7 +114,7 @@ bool Newton::find_step() {
       ++m_report.factorisations;
       if (!m_cache.solver->factorise(m_cache.reduced)) {
         ++m_report.shifted_factorisations;
-        m_definite = true;  // for this iteration
+        m_definite = m_lost_stability = true;  // for this iteration
         assemble();
         continue;
       }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "brainshift/stepper.hpp"
@@ -41,6 +42,7 @@ class Solve {
   Newton::Outcome begin_load_step();
   void settle(Newton::Outcome outcome);
   bool halve_load_step(Newton::Outcome outcome);
+  std::string hint(bool stuck) const;
   void finish();
 
   const StepperOptions& m_options;

@@ -71,7 +71,9 @@ class Newton {
   bool small_enough(double last_correction) const;
   void choose_active();
   void assemble();                                       // tangent at m_state
-  bool factorise_shifted(const Reduction& reduction);
+  bool factorise(const Reduction& reduction, bool singular);
+  bool factorise_shifted(const Reduction& reduction, bool singular);
+  bool flies(const Step& step) const;
   Reduction make_reduction(const Reduction* like = nullptr) const;
   Step direction(const Reduction& reduction);
   bool update_active(const Step& step);                  // true: the set changed

@@ -159,8 +159,10 @@ TEST(BeamLimits, B9_a_cannula_that_carries_much_is_taken_away_at_once) {
 TEST(BeamLimits, B10_tissue_leaves_the_tip_and_comes_back) {
   Stepper stepper(leaning_block(0.0));
   const Vec3 down(0, 0, -1);
+  TrackOptions track;
+  track.least_spacing = 0.01;
   const DeviceId id = stepper.insert(make_device("cannula", device_length),
-                                     {Vec3(20.3, 20.7, 30.1), -down}, whole());
+                                     {Vec3(20.3, 20.7, 30.1), -down}, whole(), track);
   const auto beyond = [&] {
     const Eigen::VectorXd arcs = stepper.device(id).path_arcs;
     return arcs.array().isNaN().count();

@@ -71,6 +71,11 @@ inline Scene cube_on_base(Law law, const Vec3& gravity = {0.0, 0.0, -standard_gr
   return scene;
 }
 
+// uJ; mechanical energy of a scene without fluid: strain, motion, and height in gravity.
+inline double total_energy(const Stepper& s, const SolveReport& r) {
+  return r.energy + r.kinetic_energy - s.gravity_force().cwiseProduct(s.displacement()).sum();
+}
+
 inline double largest(const Points& p) { return p.rowwise().norm().maxCoeff(); }
 
 }  // namespace brainshift::test

@@ -6,22 +6,23 @@ namespace brainshift::test {
 namespace {
 
 // Bending stiffness from that of tissue to far beyond any metal: the block 40 mm wide has EI of about
-// 6 * 40^4 / 12 = 1e6 mN mm^2. Stiff enough, a lead is a rigid rod, and the answer no longer changes.
+// 6 * 40^4 / 12 = 1e6 mN mm^2. 1e11 is a ratio of moduli of 1e11; steel has 2e7. Stiff enough, a lead is
+// a rigid rod, and the answer no longer changes. Beyond, it still converges, in ever more iterations:
+// 144 at 1e13, thousands at 1e16.
 TEST(StiffnessRatio, X1_a_lead_from_as_soft_as_tissue_to_rigid) {
   Points last;
-  for (const double bending : {1e1, 1e4, 1e7, 1e10, 1e13, 1e16}) {
+  for (const double bending : {1e1, 1e4, 1e7, 1e10, 1e11}) {
     Stepper stepper(leaning_block(0.0));
     const DeviceId id = stepper.insert(lead(bending), {lead_tip, lead_outward}, wire_only());
     stepper.set_gravity(leaning(0.02));
     const SolveReport report = stepper.solve_static();
-    std::printf("X1: EI %.0e mN mm^2: %s, residual %.1e, tie gap %.1e mm\n", bending,
-                to_string(report.status), report.residual, report.tie_gap);
-    expect_converged_or_failed(report);
-    EXPECT_TRUE(report.converged() || bending > 1e10) << report.message;
-    if (!report.converged()) continue;
+    std::printf("X1: EI %.0e mN mm^2: %s, %d iterations, residual %.1e, tie gap %.1e mm\n", bending,
+                to_string(report.status), report.iterations, report.residual, report.tie_gap);
+    expect_converged(report);
+    EXPECT_LE(report.iterations, 60);
     EXPECT_LE(report.tie_gap, 1e-8);
     EXPECT_TRUE(stepper.device(id).path_forces.allFinite());
-    if (bending > 1e10 && last.rows() > 0) {
+    if (bending > 1e10) {
       EXPECT_LE(largest_distance(stepper.displacement(), last), 1e-2 * largest(last)) << bending;
     }
     last = stepper.displacement();
@@ -92,12 +93,13 @@ TEST(StiffnessRatio, X4_coupled_motion_dies_out) {
     Stepper stepper(leaning_block(0.02)), rest(leaning_block(0.02));
     const BeamDevice device = make_device("3389", device_length, options);
     for (Stepper* s : {&stepper, &rest}) s->insert(device, {lead_tip, lead_outward}, wire_only());
-    double before = std::numeric_limits<double>::infinity();
+    double before = 0.0;
     for (int i = 0; i < 30; ++i) {
       const SolveReport report = stepper.step(0.02);
       expect_converged(report);
-      EXPECT_TRUE(i < 6 || report.kinetic_energy <= before + 1e-3 * report.energy) << i;
-      before = report.kinetic_energy;
+      const double now = total_energy(stepper, report);
+      EXPECT_LE(now, before + 1e-9 * (report.energy + report.kinetic_energy)) << i;
+      before = now;
     }
     for (int i = 0; i < 5; ++i) expect_converged(stepper.step(10.0));
     expect_converged(rest.solve_static());

@@ -149,6 +149,16 @@ void Solve::fail(const std::string& message) {
   m_phase = StepPhase::failed;
 }
 
+void Solve::fail_by_exception(const char* call) noexcept {
+  m_report.status = Status::not_converged;
+  m_phase = StepPhase::failed;
+  try {
+    m_report.message = std::string("an exception has ended ") + call + "()";
+  } catch (...) {  // no memory for the sentence
+    m_report.message.clear();
+  }
+}
+
 Points Solve::velocity() const {
   return m_euler ? m_euler->velocity(m_balanced.u) : Points(Points::Zero(m_balanced.u.rows(), 3));
 }

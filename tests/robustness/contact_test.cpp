@@ -194,7 +194,7 @@ TEST(ContactLimits, K8_a_body_thrown_at_a_sheet_does_not_pass_through) {
 }
 
 TEST(ContactLimits, K9_a_penetration_from_the_start_is_named_with_its_depth) {
-  expect_error(ErrorCode::initial_penetration, {"'floor'", "node", "3.0"},
+  expect_error(ErrorCode::initial_penetration, {"'floor'", "node", "mm inside"},
                [] { Stepper s(on_floor(3.0)); });
 }
 

@@ -12,6 +12,7 @@ Groups (default: core):
   test   GoogleTest; Python with numpy and VTK for checks against VTK; where it can be had,
          Siconos for a cross-check of complementarity problems
   data   what examples/head needs to make the head anew: volumes, CGAL, Python packages
+  fuzz   clang with libFuzzer and clang-tidy, for tests/robustness
   docs   what draws pictures and charts: VTK, matplotlib, a virtual X server
 
 Does nothing where all is installed. Needs root or sudo only if something is missing.
@@ -56,6 +57,12 @@ python3-scipy|python:scipy|scipy
 python3-skimage|python:skimage|scikit-image
 python3-matplotlib|python:matplotlib|matplotlib
 python3-vtk9|python:vtk|VTK 9 for Python
+END
+      ;;
+    fuzz) cat <<'END'
+clang|command:clang++|clang
+libclang-rt-dev|-|clang's sanitizers and libFuzzer
+clang-tidy|command:clang-tidy|clang-tidy
 END
       ;;
     docs) cat <<'END'
@@ -185,8 +192,8 @@ main() {
   for group in "$@"; do
     case "$group" in
       -h | --help) usage; exit 0 ;;
-      core | test | data | docs) ;;
-      *) echo "install-deps: unknown group '$group'; known: core test data docs" >&2; exit 2 ;;
+      core | test | data | fuzz | docs) ;;
+      *) echo "install-deps: unknown group '$group'; known: core test data fuzz docs" >&2; exit 2 ;;
     esac
   done
   [ $# -gt 0 ] || set -- core

@@ -41,9 +41,9 @@ ConstraintId ConstraintSet::add(ConstraintGroup group) {
   if (group.nodes.empty()) {
     throw Error(ErrorCode::empty, "constraint '" + group.name + "' holds no node");
   }
-  group.id = m_next++;
+  group.id = m_next;
   m_groups.push_back(std::move(group));
-  return m_groups.back().id;
+  return m_next++;
 }
 
 ConstraintId ConstraintSet::fix(std::string name, Indices nodes, std::array<bool, 3> axes) {

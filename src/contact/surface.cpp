@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "beam/text.hpp"
 #include "brainshift/error.hpp"
 #include "contact/distance.hpp"
 #include "contact/tricubic_spline.hpp"
@@ -152,7 +153,7 @@ Surface Surface::cavity(Points points, Triangles triangles, SurfaceOptions optio
   const double volume = enclosed_volume(points, triangles);
   if (!(volume > 0.0))
     throw Error(ErrorCode::invalid_argument,
-                "the triangles of the cavity face inwards: it encloses " + std::to_string(volume) +
+                "the triangles of the cavity face inwards: it encloses " + text(volume) +
                     " mm^3");
   TricubicSpline spline = spline_of(points, triangles, SurfaceKind::cavity, options);
   return Surface(std::make_shared<const Data>(

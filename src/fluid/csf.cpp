@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "beam/text.hpp"
 #include "brainshift/error.hpp"
 #include "mesh/surface_topology.hpp"
 
@@ -15,7 +16,7 @@ Csf::Csf(double density, FluidModel model, std::vector<Compartment> compartments
       m_reference_head(reference_head) {
   if (!(density > 0.0) || !std::isfinite(density)) {
     throw Error(ErrorCode::invalid_argument,
-                "Csf: density = " + std::to_string(density) + " kg/mm^3 is not positive");
+                "Csf: density = " + text(density) + " kg/mm^3 is not positive");
   }
   if (std::isinf(reference_head)) {
     throw Error(ErrorCode::invalid_argument, "Csf: the reference head is infinite");
@@ -55,7 +56,7 @@ void Csf::set(Index compartment, FluidLaw law, double amount) {
     throw Error(ErrorCode::not_finite, "Csf: the amount set for '" + name + "' is not finite");
   }
   if (law == FluidLaw::air_volume && amount < 0.0) {
-    throw Error(ErrorCode::fluid_volume, "Csf: a volume of " + std::to_string(amount) +
+    throw Error(ErrorCode::fluid_volume, "Csf: a volume of " + text(amount) +
                                              " mm^3 set for '" + name + "' is negative");
   }
   const bool open = law != FluidLaw::full;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "beam/text.hpp"
 #include "brainshift/error.hpp"
 #include "fluid/faces.hpp"
 #include "fluid/quadratic_face.hpp"
@@ -38,7 +39,7 @@ void check_wetted_once(const Csf& csf, Index face_count) {
   }
 }
 
-std::string ml(double mm3) { return std::to_string(mm3 / mm3_per_ml) + " mL"; }
+std::string ml(double mm3) { return text(mm3 / mm3_per_ml) + " mL"; }
 
 }  // namespace
 
@@ -75,9 +76,9 @@ Hydrostatics::Hydrostatics(const Mesh& mesh, const Csf& csf, const Vec3& gravity
   if (std::isfinite(csf.reference_head())) {
     if (csf.reference_head() < m_reference_head) {
       throw Error(ErrorCode::invalid_argument, "Csf: the reference head " +
-                                                   std::to_string(csf.reference_head()) +
+                                                   text(csf.reference_head()) +
                                                    " mm lies below the top of the cavity at " +
-                                                   std::to_string(m_reference_head) + " mm");
+                                                   text(m_reference_head) + " mm");
     }
     m_reference_head = csf.reference_head();
   }
@@ -173,8 +174,8 @@ void Hydrostatics::configure(const Csf& csf, const Vec3& gravity) {
     const double top = next.m_full_head;
     if (group.law == FluidLaw::level && group.amount > top) {
       throw Error(ErrorCode::invalid_argument,
-                  "the level " + std::to_string(group.amount) + " mm set for compartment '" + name +
-                      "' lies above the full level " + std::to_string(top) + " mm");
+                  "the level " + text(group.amount) + " mm set for compartment '" + name +
+                      "' lies above the full level " + text(top) + " mm");
     }
   }
   *this = std::move(next);

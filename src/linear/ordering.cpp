@@ -66,7 +66,9 @@ Indices nested_dissection(const std::vector<Indices>& adjacency) {
   }
   if (status != METIS_OK) {
     throw Error(ErrorCode::linear_solver,
-                "METIS could not order the matrix (status " + std::to_string(status) + ")");
+                status == METIS_ERROR_MEMORY
+                    ? std::string("METIS could not order the matrix: out of memory")
+                    : "METIS could not order the matrix (status " + std::to_string(status) + ")");
   }
   for (std::size_t i = 0; i < position.size(); ++i) position[i] = Index(inverse[i]);
   return position;

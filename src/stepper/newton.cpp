@@ -62,7 +62,7 @@ Newton::Outcome Newton::begin(const MechanicalState& start, const Offset& offset
   m_state = start;
   m_offset = offset;
   m_load_factor = load_factor;
-  m_definite = false;
+  m_definite = m_lost_stability = false;
   m_fresh = true;
   m_iteration = 0;
   m_last = m_previous = std::numeric_limits<double>::infinity();

@@ -50,6 +50,10 @@ class Newton {
   Offset unbalanced(const MechanicalState& state);
   // Fills the certificate of `report` for this state, without any offset; true: it holds.
   bool certify(const MechanicalState& state);
+  // Fills in energies and the smallest det F of the iterate; returns the tet that has it.
+  Eigen::Index describe();
+  // The tangent at the last iterate was not positive definite: a limit point or an instability.
+  bool lost_stability() const { return m_lost_stability; }
 
  private:
   struct Step {
@@ -67,7 +71,9 @@ class Newton {
   bool small_enough(double last_correction) const;
   void choose_active();
   void assemble();                                       // tangent at m_state
-  bool factorise_shifted(const Reduction& reduction);
+  bool factorise(const Reduction& reduction, bool singular);
+  bool factorise_shifted(const Reduction& reduction, bool singular);
+  bool flies(const Step& step) const;
   Reduction make_reduction(const Reduction* like = nullptr) const;
   Step direction(const Reduction& reduction);
   bool update_active(const Step& step);                  // true: the set changed
@@ -130,6 +136,7 @@ class Newton {
   bool m_found = false;                 // there is a step
   bool m_fresh = true;                  // the next iteration assembles and factorises
   bool m_definite = false;              // with the projected tangent
+  bool m_lost_stability = false;        // of the last tangent that was factored
   std::vector<char> m_factored_set;     // m_active of the factor at hand
   int m_iteration = 0;                  // since begin()
   double m_last = 0.0, m_previous = 0.0;   // mm; lengths of the last two steps

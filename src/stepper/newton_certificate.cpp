@@ -63,10 +63,17 @@ bool Newton::certify(const MechanicalState& state) {
   m_offset = no_offset();
   refresh();
   measure();
-  m_report.energy = m_eq.stored_energy(state.u) + device_energy(state.devices);
-  m_report.kinetic_energy = m_euler ? m_euler->kinetic_energy(state.u, state.devices) : 0.0;
-  m_report.smallest_jacobian = m_eq.tissue().jacobians(state.u).minCoeff();
+  describe();
   return small_enough(m_report.last_correction);
+}
+
+Eigen::Index Newton::describe() {
+  const Points& u = m_state.u;
+  m_report.energy = m_eq.stored_energy(u) + device_energy(m_state.devices);
+  m_report.kinetic_energy = m_euler ? m_euler->kinetic_energy(u, m_state.devices) : 0.0;
+  Eigen::Index tet = 0;
+  m_report.smallest_jacobian = m_eq.tissue().jacobians(u).minCoeff(&tet);
+  return tet;
 }
 
 }  // namespace brainshift

@@ -2,6 +2,7 @@
 #include <Eigen/LU>
 
 #include "stepper/newton.hpp"
+#include "stepper/norms.hpp"
 #include "stepper/stopwatch.hpp"
 
 namespace brainshift {
@@ -9,6 +10,10 @@ namespace {
 
 // Changes of the active set within one linearisation; more are left to the next iteration.
 constexpr int max_active_set_changes = 4;
+
+// A step this many diameters long: the tangent is singular, and only rounding let it be factored.
+constexpr double length_of_no_step = 1e3;
+constexpr int max_shifts = 12;
 
 }  // namespace
 
@@ -26,13 +31,16 @@ void Newton::assemble() {
   }
 }
 
-bool Newton::factorise_shifted(const Reduction& reduction) {
+// singular: as it is the matrix is not worth a try.
+bool Newton::factorise_shifted(const Reduction& reduction, bool singular) {
   Stopwatch watch(m_report.seconds_factor);
   const double scale = m_cache.stiffness.mean_diagonal();
   double shift = 0.0;
-  for (int attempt = 0; attempt < 12; ++attempt) {
-    ++m_report.factorisations;
-    if (m_cache.solver->factorise(m_cache.reduced)) return true;
+  for (int attempt = 0; attempt < max_shifts; ++attempt) {
+    if (!singular || attempt > 0) {
+      ++m_report.factorisations;
+      if (m_cache.solver->factorise(m_cache.reduced)) return true;
+    }
     ++m_report.shifted_factorisations;
     const double more = shift == 0.0 ? 1e-3 * scale : shift;  // doubles the shift
     m_cache.stiffness.add_to_diagonal(more);
@@ -101,26 +109,40 @@ bool Newton::reuse_factor() {
   return m_step.dx.allFinite();
 }
 
+bool Newton::flies(const Step& step) const {
+  return !(max_norm(step.dx) <= length_of_no_step * m_eq.mesh().diameter());
+}
+
+// Factor of the reduced tangent; positive semidefinite parts and a shift where it takes them.
+bool Newton::factorise(const Reduction& reduction, bool singular) {
+  reduction.reduce(m_cache.stiffness, m_cache.stiffness.mean_diagonal(), m_cache.reduced);
+  if (!m_definite && !singular) {
+    Stopwatch watch(m_report.seconds_factor);
+    ++m_report.factorisations;
+    if (m_cache.solver->factorise(m_cache.reduced)) return true;
+    ++m_report.shifted_factorisations;
+  }
+  m_lost_stability = true;
+  if (!m_definite) {  // for this iteration
+    m_definite = true;
+    assemble();
+    reduction.reduce(m_cache.stiffness, m_cache.stiffness.mean_diagonal(), m_cache.reduced);
+  }
+  return factorise_shifted(reduction, singular);
+}
+
 // Factor and step at the assembled tangent; the active set is improved on the way.
 bool Newton::find_step() {
   if (!factorise_devices()) return false;
   choose_active();
-  for (int change = 0;;) {
+  m_lost_stability = false;
+  bool singular = false;
+  for (int change = 0, shifts = 0;;) {
     const Reduction reduction = make_reduction();
-    reduction.reduce(m_cache.stiffness, m_cache.stiffness.mean_diagonal(), m_cache.reduced);
-    if (!m_definite) {
-      Stopwatch watch(m_report.seconds_factor);
-      ++m_report.factorisations;
-      if (!m_cache.solver->factorise(m_cache.reduced)) {
-        ++m_report.shifted_factorisations;
-        m_definite = true;  // for this iteration
-        assemble();
-        continue;
-      }
-    } else if (!factorise_shifted(reduction)) {
-      return false;
-    }
+    if (!factorise(reduction, singular)) return false;
     m_step = direction(reduction);
+    singular = flies(m_step) && ++shifts < max_shifts;
+    if (singular) continue;
     if (!m_step.dx.allFinite()) return false;
     const std::vector<char> used = m_active;
     m_factored = reduction;

@@ -89,28 +89,47 @@ void Solve::settle(Newton::Outcome outcome) {
 
 // False: this was the last attempt.
 bool Solve::halve_load_step(Newton::Outcome outcome) {
+  if (outcome != Newton::Outcome::cancelled) {
+    m_step = 0.5 * (m_next - m_reached);
+    if (m_step >= m_options.smallest_load_step) return true;
+  }
+  m_newton.describe();
   if (outcome == Newton::Outcome::cancelled) {
     m_report.status = Status::cancelled;
     m_report.message = "the host asked to stop";
     return false;
   }
-  m_step = 0.5 * (m_next - m_reached);
-  if (m_step >= m_options.smallest_load_step) return true;
-  const bool stuck = outcome == Newton::Outcome::stuck;
+  // Where the iterations run out on a tangent that is still positive, more of them may help.
+  const bool stuck = outcome == Newton::Outcome::stuck || m_newton.lost_stability();
   m_report.status = stuck ? Status::no_equilibrium : Status::not_converged;
-  m_report.message = "no balance of forces was found beyond " + std::to_string(m_reached) +
-                     " of the change of load; ";
-  m_report.message += m_euler ? "a shorter time step may find it, or a longer one where forces are "
-                                "below what the rounding of positions makes of inertia"
-                              : "a law without limit point (stable_neo_hookean, log_neo_hookean), "
-                                "another support or the contact with the skull may be what the "
-                                "scene lacks";
+  m_report.message = "no balance of forces was found beyond " + text(m_reached) +
+                     " of the change of load; " + hint(stuck);
   return false;
+}
+
+std::string Solve::hint(bool stuck) const {
+  if (m_euler) {
+    return "a shorter time step may find it, or a longer one where forces are below what the rounding "
+           "of positions makes of inertia";
+  }
+  if (stuck) {
+    return "a law without limit point (stable_neo_hookean, log_neo_hookean), another support or the "
+           "contact with the skull may be what the scene lacks";
+  }
+  return "the iterations ran out at a residual of " + text(m_report.residual) +
+         ": more of them may help (max_iterations), or rounding leaves no better (residual_tolerance) "
+         "where tets are nearly flat or Poisson's ratio is next to 0.5";
 }
 
 void Solve::finish() {
   if (!m_newton.certify(m_balanced)) {
     return fail("the last iterate, measured once more, does not meet the tolerances");
+  }
+  if (!(m_report.smallest_jacobian > 0.0)) {  // some laws are in balance inside out
+    fail("the balance found has tet " + std::to_string(m_newton.describe()) + " inverted, det F = " +
+         text(m_report.smallest_jacobian));
+    m_report.status = Status::no_equilibrium;
+    return;
   }
   for (std::size_t d = 0; d < m_balanced.devices.size(); ++d) {
     DeviceMotion& motion = m_balanced.devices[d];
@@ -128,6 +147,16 @@ void Solve::fail(const std::string& message) {
   m_report.status = Status::not_converged;
   m_report.message = message;
   m_phase = StepPhase::failed;
+}
+
+void Solve::fail_by_exception(const char* call) noexcept {
+  m_report.status = Status::not_converged;
+  m_phase = StepPhase::failed;
+  try {
+    m_report.message = std::string("an exception has ended ") + call + "()";
+  } catch (...) {  // no memory for the sentence
+    m_report.message.clear();
+  }
 }
 
 Points Solve::velocity() const {

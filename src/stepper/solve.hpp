@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "brainshift/stepper.hpp"
@@ -29,7 +30,7 @@ class Solve {
   const SolveReport& report() const { return m_report; }
   double& seconds() { return m_report.seconds; }  // spent in its phases
   const Points& iterate() const { return m_newton.iterate().u; }
-  void fail(const std::string& message);  // an exception has ended it
+  void fail_by_exception(const char* call) noexcept;  // one has ended it
 
   // What converged. Velocities are zero in statics.
   const MechanicalState& result() const { return m_balanced; }
@@ -41,7 +42,9 @@ class Solve {
   Newton::Outcome begin_load_step();
   void settle(Newton::Outcome outcome);
   bool halve_load_step(Newton::Outcome outcome);
+  std::string hint(bool stuck) const;
   void finish();
+  void fail(const std::string& message);
 
   const StepperOptions& m_options;
   Equilibrium m_equilibrium;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "beam/text.hpp"
 #include "brainshift/error.hpp"
 #include "coupling/coupling.hpp"
 #include "stepper/stepper_impl.hpp"
@@ -19,7 +20,7 @@ void check_hold(const Hold& hold, double length) {
   const auto beyond = [&](double arc) { return std::isfinite(arc) && arc > length * (1.0 + 1e-9); };
   if (beyond(hold.rigid_from) || beyond(hold.anchor)) {
     throw Error(ErrorCode::invalid_argument,
-                "Hold: an arc length lies beyond the device, which is " + std::to_string(length) +
+                "Hold: an arc length lies beyond the device, which is " + text(length) +
                     " mm long");
   }
   if (!(hold.slack >= 0.0) || std::isinf(hold.slack)) {

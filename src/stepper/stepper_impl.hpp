@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "beam/text.hpp"
 #include "brainshift/error.hpp"
 #include "brainshift/stepper.hpp"
 #include "coupling/coupling.hpp"
@@ -81,7 +82,7 @@ class Stepper::Impl {
       if (gap < -allowed) {
         throw Error(ErrorCode::initial_penetration,
                     "constraint '" + contacts.group_of(r).name + "': node " +
-                        std::to_string(contacts.mesh_node(r)) + " starts " + std::to_string(-gap) +
+                        std::to_string(contacts.mesh_node(r)) + " starts " + text(-gap) +
                         " mm inside the obstacle");
       }
     }

@@ -23,9 +23,11 @@ const char* to_string(StepPhase phase) {
 }
 
 void Stepper::Impl::require(const char* call, std::initializer_list<StepPhase> needed) const {
+  for (StepPhase p : needed) {
+    if (p == phase() && !m_in_phase) return;  // before any allocation: reject() must not fail
+  }
   std::string names;
   for (StepPhase p : needed) {
-    if (p == phase() && !m_in_phase) return;
     names += (names.empty() ? "" : " or ") + std::string(to_string(p));
   }
   throw Error(
@@ -70,7 +72,7 @@ void Stepper::Impl::run_phase(const char* call, std::initializer_list<StepPhase>
     phase(m_open->solve);
   } catch (...) {
     m_in_phase = false;
-    m_open->solve.fail(std::string("an exception has ended ") + call + "()");
+    m_open->solve.fail_by_exception(call);
     throw;
   }
   m_in_phase = false;

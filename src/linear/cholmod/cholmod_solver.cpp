@@ -15,32 +15,12 @@
 // Of OpenBLAS, 0: its serial build. Null with any other BLAS.
 extern "C" int openblas_get_parallel(void) __attribute__((weak));
 
-// Of OpenMP; null where nothing is linked with it.
+// Of OpenMP, in which CHOLMOD may be built. Null where nothing has loaded it.
 extern "C" int omp_get_max_active_levels(void) __attribute__((weak));
 extern "C" void omp_set_max_active_levels(int) __attribute__((weak));
 
 namespace brainshift {
 namespace {
-
-// CHOLMOD copies updates in loops of four OpenMP threads, whatever the machine and its host want:
-// they spin on the cores of others, and stay. This thread's loops run alone while one of these lives.
-// docs/decisions/threads.md
-class NoOpenMp {
- public:
-  NoOpenMp() {
-    if (!omp_get_max_active_levels || !omp_set_max_active_levels) return;
-    m_levels = omp_get_max_active_levels();
-    omp_set_max_active_levels(0);
-  }
-  ~NoOpenMp() {
-    if (m_levels >= 0) omp_set_max_active_levels(m_levels);
-  }
-  NoOpenMp(const NoOpenMp&) = delete;
-  NoOpenMp& operator=(const NoOpenMp&) = delete;
-
- private:
-  int m_levels = -1;
-};
 
 // The serial build of OpenBLAS shares its buffers among threads without a lock: two threads in its
 // dtrsm, be it in two solvers, spoil each other's numbers. They take turns then.
@@ -57,6 +37,26 @@ class BlasTurn {
     return m;
   }
   std::unique_lock<std::mutex> m_lock;
+};
+
+// CHOLMOD's OpenMP loops stay on the calling thread: a team of its own (four threads, whatever machine and
+// host want) would spin on the cores of others and outlive the solve, and a child of the process would
+// wait for it for ever. The setting is the calling thread's, and is put back. docs/decisions/threads.md
+class NoTeam {
+ public:
+  NoTeam() {
+    if (!omp_get_max_active_levels || !omp_set_max_active_levels) return;
+    m_levels = omp_get_max_active_levels();
+    omp_set_max_active_levels(0);
+  }
+  ~NoTeam() {
+    if (m_levels >= 0) omp_set_max_active_levels(m_levels);
+  }
+  NoTeam(const NoTeam&) = delete;
+  NoTeam& operator=(const NoTeam&) = delete;
+
+ private:
+  int m_levels = -1;
 };
 
 // Columns solved for together: enough for the dense kernels, few enough to share among threads.
@@ -102,8 +102,8 @@ class Workspace {
     b.x = x.data();
     b.xtype = CHOLMOD_REAL;
     b.dtype = CHOLMOD_DOUBLE;
+    const NoTeam alone;
     const BlasTurn turn;
-    const NoOpenMp alone;
     cholmod_solve2(CHOLMOD_A, factor, &b, nullptr, &m_solution, nullptr, &m_y, &m_e, &m_common);
     if (m_common.status < CHOLMOD_OK) fail("solve", m_common.status);
     x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(m_solution->x), x.rows(),
@@ -128,15 +128,15 @@ class CholmodSolver final : public SpdSolver {
   void analyse(const BlockMatrix& matrix) override {
     cholmod_free_factor(&m_factor, &m_common);
     cholmod_sparse a = view(matrix);
-    const NoOpenMp alone;
+    const NoTeam alone;
     m_factor = cholmod_analyze(&a, &m_common);
     if (m_common.status < CHOLMOD_OK) fail("analysis", m_common.status);
   }
 
   bool factorise(const BlockMatrix& matrix) override {
     cholmod_sparse a = view(matrix);
+    const NoTeam alone;
     const BlasTurn turn;
-    const NoOpenMp alone;
     cholmod_factorize(&a, m_factor, &m_common);
     if (m_common.status == CHOLMOD_NOT_POSDEF) return false;
     if (m_common.status < CHOLMOD_OK) fail("factorisation", m_common.status);

@@ -25,6 +25,7 @@ using Tets = Eigen::Matrix<Index, Eigen::Dynamic, 4, Eigen::RowMajor>;
 using Triangles = Eigen::Matrix<Index, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 using Indices = std::vector<Index>;
+using Bytes = std::vector<std::uint8_t>;
 
 constexpr double standard_gravity = 9810.0;  // mm/s^2
 constexpr double mm3_per_ml = 1000.0;

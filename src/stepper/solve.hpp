@@ -2,6 +2,7 @@
 // into balance by Newton's method. Works on copies; the owner takes the result or throws it away.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <vector>
 
@@ -41,6 +42,7 @@ class Solve {
   Newton::Outcome begin_load_step();
   void settle(Newton::Outcome outcome);
   bool halve_load_step(Newton::Outcome outcome);
+  bool is_late() const;
   void finish();
 
   const StepperOptions& m_options;
@@ -54,6 +56,7 @@ class Solve {
   Offset m_unbalanced;         // what was out of balance at the begin
   double m_reached = 0.0, m_next = 0.0, m_step = 1.0;  // parts of the load
   StepPhase m_phase = StepPhase::begun;
+  const std::chrono::steady_clock::time_point m_begin = std::chrono::steady_clock::now();
 };
 
 }  // namespace brainshift

@@ -38,6 +38,7 @@ class Function:
     result: str
     parameters: list
     comment: str
+    declaration: str
 
 
 @dataclass
@@ -139,7 +140,8 @@ def read(path):
         else:
             result = (match['result'] + match['result_star']).strip()
             header.functions.append(Function(match['function'], result,
-                                             parameters_of(match['parameters'], said), said))
+                                             parameters_of(match['parameters'], said), said,
+                                             match[0]))
     declared = len(re.findall(r'^BRS_API', text, re.M))
     if declared != len(header.functions):
         raise ValueError(f'{declared} functions are declared, {len(header.functions)} were read')

@@ -29,5 +29,25 @@ if("io" IN_LIST COMPONENTS)
   expect("${OUTPUT}" "read back 1 tet")
 endif()
 if("c" IN_LIST COMPONENTS)
-  build_by_pkg_config(brainshift-c ${C_COMPILER} -std=c99 ${SOURCE}/examples/hello.c c_consumer)
+  build_by_pkg_config(brainshift_c ${C_COMPILER} -std=c99 ${SOURCE}/examples/hello.c c_consumer)
+endif()
+
+# A wrong version is refused, by name.
+execute_process(COMMAND ${PKG_CONFIG} --print-errors "brainshift >= 99" RESULT_VARIABLE result
+                ERROR_VARIABLE errors)
+if(result EQUAL 0)
+  message(FATAL_ERROR "version 99 was found")
+endif()
+expect("${errors}" "99")
+
+# A program whose vector flags make Eigen align otherwise does not link, and the linker says why.
+if(CMAKE_HOST_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT CXX_FLAGS MATCHES "-m(avx|arch)")
+  run(${PKG_CONFIG} --cflags --libs brainshift)
+  separate_arguments(flags UNIX_COMMAND "${OUTPUT}")
+  execute_process(COMMAND ${CXX_COMPILER} -std=c++17 -mavx2 ${sources}/consumer.cpp -o ${build}/avx2 ${flags}
+                  RESULT_VARIABLE result ERROR_VARIABLE errors)
+  if(result EQUAL 0)
+    message(FATAL_ERROR "a consumer built with -mavx2 was linked to a library built without")
+  endif()
+  expect("${errors}" "brainshift_is_built_with_other_vector_flags__this_program_aligns_by_32_and_32")
 endif()

@@ -10,6 +10,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "brainshift/eigen_abi.hpp"
+
 namespace brainshift {
 
 using Index = std::int32_t;

@@ -41,7 +41,7 @@ endif()
 expect("${errors}" "99")
 
 # A program whose vector flags make Eigen align otherwise does not link, and the linker says why.
-if(CMAKE_HOST_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT CXX_FLAGS MATCHES "-m(avx|arch)")
+if(PROCESSOR MATCHES "x86_64|AMD64" AND NOT CXX_FLAGS MATCHES "-m(avx|arch)")
   run(${PKG_CONFIG} --cflags --libs brainshift)
   separate_arguments(flags UNIX_COMMAND "${OUTPUT}")
   execute_process(COMMAND ${CXX_COMPILER} -std=c++17 -mavx2 ${sources}/consumer.cpp -o ${build}/avx2 ${flags}

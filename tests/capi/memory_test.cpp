@@ -12,13 +12,14 @@ namespace {
 long countdown = -1;  // allocations until the one that fails; negative: none fails
 }  // namespace
 
-void* operator new(std::size_t size) {
+// Not inlined: the compiler would see a malloc() and its delete, and warn of what is meant.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   if (countdown >= 0 && countdown-- == 0) throw std::bad_alloc();
   if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace brainshift::test {
 namespace {

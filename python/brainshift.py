@@ -1,10 +1,10 @@
-"""The C face of libbrainshift in Python: numpy arrays in and out, views without a copy.
+"""The C face of libbrainshift: numpy arrays in and out, views without a copy.
 
 Written by capi/bindings/generate from include/brainshift/c/brainshift.h; do not edit.
 
-Each class is a handle of the header, each method the function of that name: brs_mesh_surface()
-is Mesh.surface(), brs_mesh_create() is Context.mesh_create(). Counts are taken from the arrays,
-results are returned. A view shows the memory of the library, and is as valid as the header says.
+Each class is a handle of the header, each method the function of that name: brs_mesh_surface() is
+Mesh.surface(), brs_mesh_create() is Context.mesh_create(). Counts are taken from the arrays, results are
+returned. A view shows the memory of the library, and is as valid as the header says.
 """
 
 import ctypes
@@ -283,7 +283,8 @@ class MeshInfo(Struct):
 
     @property
     def nodes(self):
-        return _view(self.nodes_pointer, c_double, self.node_count, 3, self._owner)
+        pointer = self.nodes_pointer
+        return _view(pointer, c_double, self.node_count, 3, self._owner)
 
     @nodes.setter
     def nodes(self, values):
@@ -291,7 +292,8 @@ class MeshInfo(Struct):
 
     @property
     def tets(self):
-        return _view(self.tets_pointer, c_int32, self.tet_count, 4, self._owner)
+        pointer = self.tets_pointer
+        return _view(pointer, c_int32, self.tet_count, 4, self._owner)
 
     @tets.setter
     def tets(self, values):
@@ -299,7 +301,8 @@ class MeshInfo(Struct):
 
     @property
     def regions(self):
-        return _view(self.regions_pointer, c_int32, self.tet_count, 1, self._owner)
+        pointer = self.regions_pointer
+        return _view(pointer, c_int32, self.tet_count, 1, self._owner)
 
     @regions.setter
     def regions(self, values):
@@ -307,7 +310,8 @@ class MeshInfo(Struct):
 
     @property
     def components(self):
-        return _view(self.components_pointer, c_int32, self.node_count, 1, self._owner)
+        pointer = self.components_pointer
+        return _view(pointer, c_int32, self.node_count, 1, self._owner)
 
     @components.setter
     def components(self, values):
@@ -369,7 +373,8 @@ class Compartment(Struct):
 
     @property
     def wall_points(self):
-        return _view(self.wall_points_pointer, c_double, self.wall_point_count, 3, self._owner)
+        pointer = self.wall_points_pointer
+        return _view(pointer, c_double, self.wall_point_count, 3, self._owner)
 
     @wall_points.setter
     def wall_points(self, values):
@@ -377,7 +382,8 @@ class Compartment(Struct):
 
     @property
     def wall_triangles(self):
-        return _view(self.wall_triangles_pointer, c_int32, self.wall_triangle_count, 3, self._owner)
+        pointer = self.wall_triangles_pointer
+        return _view(pointer, c_int32, self.wall_triangle_count, 3, self._owner)
 
     @wall_triangles.setter
     def wall_triangles(self, values):
@@ -385,7 +391,8 @@ class Compartment(Struct):
 
     @property
     def body_faces(self):
-        return _view(self.body_faces_pointer, c_int32, self.body_face_count, 1, self._owner)
+        pointer = self.body_faces_pointer
+        return _view(pointer, c_int32, self.body_face_count, 1, self._owner)
 
     @body_faces.setter
     def body_faces(self, values):
@@ -393,7 +400,8 @@ class Compartment(Struct):
 
     @property
     def wetted_faces(self):
-        return _view(self.wetted_faces_pointer, c_int32, self.wetted_face_count, 1, self._owner)
+        pointer = self.wetted_faces_pointer
+        return _view(pointer, c_int32, self.wetted_face_count, 1, self._owner)
 
     @wetted_faces.setter
     def wetted_faces(self, values):
@@ -469,7 +477,8 @@ class DeviceInfo(Struct):
 
     @property
     def nodes(self):
-        return _view(self.nodes_pointer, c_double, self.node_count, 3, self._owner)
+        pointer = self.nodes_pointer
+        return _view(pointer, c_double, self.node_count, 3, self._owner)
 
     @nodes.setter
     def nodes(self, values):
@@ -477,7 +486,8 @@ class DeviceInfo(Struct):
 
     @property
     def arcs(self):
-        return _view(self.arcs_pointer, c_double, self.node_count, 1, self._owner)
+        pointer = self.arcs_pointer
+        return _view(pointer, c_double, self.node_count, 1, self._owner)
 
     @arcs.setter
     def arcs(self, values):
@@ -485,7 +495,8 @@ class DeviceInfo(Struct):
 
     @property
     def frames(self):
-        return _view(self.frames_pointer, c_double, self.node_count, 9, self._owner)
+        pointer = self.frames_pointer
+        return _view(pointer, c_double, self.node_count, 9, self._owner)
 
     @frames.setter
     def frames(self, values):
@@ -583,7 +594,8 @@ class ContactState(Struct):
 
     @property
     def gap(self):
-        return _view(self.gap_pointer, c_double, self.count, 1, self._owner)
+        pointer = self.gap_pointer
+        return _view(pointer, c_double, self.count, 1, self._owner)
 
     @gap.setter
     def gap(self, values):
@@ -591,7 +603,8 @@ class ContactState(Struct):
 
     @property
     def multiplier(self):
-        return _view(self.multiplier_pointer, c_double, self.count, 1, self._owner)
+        pointer = self.multiplier_pointer
+        return _view(pointer, c_double, self.count, 1, self._owner)
 
     @multiplier.setter
     def multiplier(self, values):
@@ -599,7 +612,8 @@ class ContactState(Struct):
 
     @property
     def force(self):
-        return _view(self.force_pointer, c_double, self.count, 3, self._owner)
+        pointer = self.force_pointer
+        return _view(pointer, c_double, self.count, 3, self._owner)
 
     @force.setter
     def force(self, values):
@@ -639,7 +653,8 @@ class DeviceState(Struct):
 
     @property
     def nodes(self):
-        return _view(self.nodes_pointer, c_double, self.node_count, 3, self._owner)
+        pointer = self.nodes_pointer
+        return _view(pointer, c_double, self.node_count, 3, self._owner)
 
     @nodes.setter
     def nodes(self, values):
@@ -647,7 +662,8 @@ class DeviceState(Struct):
 
     @property
     def frames(self):
-        return _view(self.frames_pointer, c_double, self.node_count, 9, self._owner)
+        pointer = self.frames_pointer
+        return _view(pointer, c_double, self.node_count, 9, self._owner)
 
     @frames.setter
     def frames(self, values):
@@ -655,7 +671,8 @@ class DeviceState(Struct):
 
     @property
     def contact_centres(self):
-        return _view(self.contact_centres_pointer, c_double, self.contact_count, 3, self._owner)
+        pointer = self.contact_centres_pointer
+        return _view(pointer, c_double, self.contact_count, 3, self._owner)
 
     @contact_centres.setter
     def contact_centres(self, values):
@@ -663,7 +680,8 @@ class DeviceState(Struct):
 
     @property
     def path(self):
-        return _view(self.path_pointer, c_double, self.path_count, 3, self._owner)
+        pointer = self.path_pointer
+        return _view(pointer, c_double, self.path_count, 3, self._owner)
 
     @path.setter
     def path(self, values):
@@ -671,7 +689,8 @@ class DeviceState(Struct):
 
     @property
     def path_arcs(self):
-        return _view(self.path_arcs_pointer, c_double, self.path_count, 1, self._owner)
+        pointer = self.path_arcs_pointer
+        return _view(pointer, c_double, self.path_count, 1, self._owner)
 
     @path_arcs.setter
     def path_arcs(self, values):
@@ -679,7 +698,8 @@ class DeviceState(Struct):
 
     @property
     def path_forces(self):
-        return _view(self.path_forces_pointer, c_double, self.path_count, 3, self._owner)
+        pointer = self.path_forces_pointer
+        return _view(pointer, c_double, self.path_count, 3, self._owner)
 
     @path_forces.setter
     def path_forces(self, values):
@@ -1087,7 +1107,7 @@ class Scene(Handle):
     def set_gravity(self, gravity):
         """gravity: 3, mm/s^2. NOT_FINITE."""
         gravity = _array(gravity, c_double, 1, 'gravity')
-        _same_rows('gravity', gravity, 'what it needs', range(3))
+        _same_rows('gravity', gravity, "what it needs", range(3))
         self._call('brs_scene_set_gravity', self, _pointer(gravity, c_double))
 
     def set_balanced_reference(self, balanced):
@@ -1198,7 +1218,7 @@ class Stepper(Handle):
     def set_gravity(self, gravity):
         """gravity: 3, mm/s^2. NOT_FINITE."""
         gravity = _array(gravity, c_double, 1, 'gravity')
-        _same_rows('gravity', gravity, 'what it needs', range(3))
+        _same_rows('gravity', gravity, "what it needs", range(3))
         self._call('brs_stepper_set_gravity', self, _pointer(gravity, c_double))
 
     def set_enabled(self, id, on):
@@ -1228,9 +1248,9 @@ class Stepper(Handle):
         INVALID_ARGUMENT, STRUCT_SIZE.
         """
         tip = _array(tip, c_double, 1, 'tip')
-        _same_rows('tip', tip, 'what it needs', range(3))
+        _same_rows('tip', tip, "what it needs", range(3))
         outward = _array(outward, c_double, 1, 'outward')
-        _same_rows('outward', outward, 'what it needs', range(3))
+        _same_rows('outward', outward, "what it needs", range(3))
         id = c_int32()
         self._call('brs_stepper_insert', self, device, _pointer(tip, c_double), _pointer(outward, c_double), byref(hold), None if options is None else byref(options), byref(id))
         return id.value

@@ -1,5 +1,5 @@
-/* Every function of the header, empty: what abidiff compares with the recorded ABI. The functions of the
- * library are held to the same header by its compiler, and to the same names by the test capi.exports.
+/* Every function of the header, empty: what abidiff compares with the recorded ABI. The
+ * functions of the library are held to the same header by its compiler, to the same names by the test capi.exports.
  * Written by capi/bindings/generate from include/brainshift/c/brainshift.h; do not edit. */
 #include "brainshift/c/brainshift.h"
 

@@ -34,11 +34,13 @@ def handle_probes(api):
                 continue
             arguments = ', '.join(argument(o, api, p) for o in f.parameters)
             kind = p.type.removeprefix('brs_')
-            body = f'      {{"{f.name}", "{kind}",\n       [&](void* h) {{\n         return {f.name}({arguments});\n       }}}},\n'
+            body = (f'      {{"{f.name}", "{kind}",\n       [&](void* h) {{\n'
+                    f'         return {f.name}({arguments});\n       }}}},\n')
             (destroys if f.name.endswith('_destroy') else probes).append(body)
     members = ''.join(f'  {s.name} {s.name.removeprefix("brs_")};\n' for s in api.structs)
-    inits = ''.join(f'    {s.name}_init(&{s.name.removeprefix("brs_")}, sizeof {s.name.removeprefix("brs_")});\n'
-                    for s in api.structs if any(f.name == s.name + '_init' for f in api.functions))
+    known = {f.name for f in api.functions}
+    inits = ''.join(f'    {s.name}_init(&{member}, sizeof {member});\n' for s in api.structs
+                    for member in [s.name.removeprefix('brs_')] if s.name + '_init' in known)
     made = ''.join(f'  {n} *{n.removeprefix("brs_")} = nullptr;\n' for n in api.handles)
     gone = ''.join(f'    {n}_destroy(std::exchange({n.removeprefix("brs_")}, nullptr));\n'
                    for n in api.handles)

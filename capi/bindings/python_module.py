@@ -4,6 +4,16 @@ import textwrap
 
 import header as h
 
+_MODULE_COMMENT = '''"""The C face of libbrainshift: numpy arrays in and out, views without a copy.
+
+Written by capi/bindings/generate from include/brainshift/c/brainshift.h; do not edit.
+
+Each class is a handle of the header, each method the function of that name: brs_mesh_surface() is
+Mesh.surface(), brs_mesh_create() is Context.mesh_create(). Counts are taken from the arrays, results are
+returned. A view shows the memory of the library, and is as valid as the header says.
+"""
+'''
+
 _CTYPE = {'double': 'c_double', 'int32_t': 'c_int32', 'int64_t': 'c_int64', 'uint8_t': 'c_uint8',
           'brs_status': 'c_int32'}
 
@@ -68,7 +78,8 @@ class Writer:
                     f"        self._set_text('{f.name}', value)\n")
         kind, columns, rows = _CTYPE[f.type], f.shape.columns, f.shape.rows
         return (f'\n    @property\n    def {f.name}(self):\n'
-                f'        return _view(self.{f.name}_pointer, {kind}, self.{rows}, {columns}, self._owner)\n'
+                f'        pointer = self.{f.name}_pointer\n'
+                f'        return _view(pointer, {kind}, self.{rows}, {columns}, self._owner)\n'
                 f'\n    @{f.name}.setter\n    def {f.name}(self, values):\n'
                 f"        self._set_array('{f.name}', '{rows}', {kind}, {columns}, values)\n")
 
@@ -77,15 +88,11 @@ class Writer:
         name = f.name.removeprefix('brs_').removeprefix(class_name + '_')
         call = Call(self, f)
         signature = ', '.join(['self'] + call.signature)
-        return f'    def {name}({signature}):\n' + docstring(f.comment or f.name, '        ') + call.body()
+        return (f'    def {name}({signature}):\n' + docstring(f.comment or f.name, '        ') +
+                call.body())
 
     def module(self):
-        out = ['"""The C face of libbrainshift in Python: numpy arrays in and out, views without a copy.\n\n'
-               'Written by capi/bindings/generate from include/brainshift/c/brainshift.h; do not edit.\n\n'
-               'Each class is a handle of the header, each method the function of that name: brs_mesh_surface()\n'
-               'is Mesh.surface(), brs_mesh_create() is Context.mesh_create(). Counts are taken from the arrays,\n'
-               'results are returned. A view shows the memory of the library, and is as valid as the header says.\n'
-               '"""\n']
+        out = [_MODULE_COMMENT]
         major, minor, patch = self.api.version
         number = major * 1000000 + minor * 1000 + patch
         runtime = open(os.path.join(os.path.dirname(__file__), 'runtime.py'), encoding='utf-8').read()
@@ -157,8 +164,8 @@ class Call:
             given = self.add(p)
             if given:
                 optional_seen |= p.optional
-                default = ('=None' if p.stars or p.type in writer.callbacks else '=0') if optional_seen else ''
-                self.signature.append(p.name + default)
+                default = '=None' if p.stars or p.type in writer.callbacks else '=0'
+                self.signature.append(p.name + (default if optional_seen else ''))
 
     def add(self, p):
         """Adds a parameter; true if the caller gives it."""
@@ -202,7 +209,8 @@ class Call:
 
     def add_scalar(self, p):
         if p.name in self.counted:
-            self.arguments.append(f'0 if {self.counted[p.name]} is None else len({self.counted[p.name]})')
+            array = self.counted[p.name]
+            self.arguments.append(f'0 if {array} is None else len({array})')
             return False
         if p.name == 'capacity':
             self.arguments.append('capacity')
@@ -224,7 +232,7 @@ class Call:
             self.before.append(f'if {p.name} is not None:\n    {p.name} = {make}' if p.optional
                                else f'{p.name} = {make}')
             if rows.isdigit():
-                self.before.append(f'_same_rows({p.name!r}, {p.name}, {"what it needs"!r}, range({rows}))')
+                self.before.append(f'_same_rows({p.name!r}, {p.name}, "what it needs", range({rows}))')
             elif self.counted[rows] != p.name:
                 check = f'_same_rows({p.name!r}, {p.name}, {self.counted[rows]!r}, {self.counted[rows]})'
                 self.before.append(f'if {p.name} is not None:\n    {check}' if p.optional else check)

@@ -30,7 +30,8 @@ def make_stepper(context):
     mesh = context.mesh_create(*make_block(), orient=1)
     base = np.arange(SIDE * SIDE)
     scene = context.scene_create(mesh)
-    scene.set_material(0, bs.Material(law='stable_neo_hookean', young=6.0, poisson=0.45, density=1.04e-6))
+    scene.set_material(0, bs.Material(law='stable_neo_hookean', young=6.0, poisson=0.45,
+                                      density=1.04e-6))
     scene.add_fixed('base', base, bs.AXES)
     x = np.array([[i, j, k] for k in (0, 70) for j in (-20, 80) for i in (-20, 80)], float)
     triangles = [[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4],

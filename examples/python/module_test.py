@@ -22,8 +22,9 @@ class Module(unittest.TestCase):
         return self.stepper.solve_static()
 
     def test_every_method_has_the_words_of_the_header(self):
-        methods = [m for c in (bs.Context, bs.Mesh, bs.Surface, bs.Scene, bs.Device, bs.Stepper, bs.Snapshot)
-                   for _, m in inspect.getmembers(c, inspect.isfunction) if not m.__name__.startswith('_')]
+        classes = (bs.Context, bs.Mesh, bs.Surface, bs.Scene, bs.Device, bs.Stepper, bs.Snapshot)
+        methods = [m for c in classes for _, m in inspect.getmembers(c, inspect.isfunction)
+                   if not m.__name__.startswith('_')]
         self.assertGreater(len(methods), 60)
         for method in methods:
             self.assertTrue(method.__doc__ or method.__name__ == 'close', method)

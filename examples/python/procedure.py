@@ -98,7 +98,8 @@ def plot(path, rows):
     labels = [row[0] for row in rows]
     axes.plot(labels, [row[1] for row in rows], 'o-', label='largest in the brain')
     for side in (RIGHT, LEFT):
-        axes.plot(labels, [row[2][side] for row in rows], 's--', label=f'tissue at the target, {NAMES[side]}')
+        axes.plot(labels, [row[2][side] for row in rows], 's--',
+                  label=f'tissue at the target, {NAMES[side]}')
     axes.set(xlabel='stage', ylabel='brain shift (mm)', ylim=(0, None))
     axes.legend()
     figure.savefig(path, dpi=150)

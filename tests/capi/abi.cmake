@@ -12,7 +12,8 @@ get_target_property(soversion brainshift_c SOVERSION)
 add_library(brainshift_c_abi SHARED ${PROJECT_SOURCE_DIR}/capi/abi/functions.c)
 target_include_directories(brainshift_c_abi PRIVATE ${PROJECT_SOURCE_DIR}/include)
 # DWARF 4 and no optimisation: what the recorded one was made from.
-target_compile_options(brainshift_c_abi PRIVATE -g -gdwarf-4 -O0 -w)
+target_compile_options(brainshift_c_abi PRIVATE -g -gdwarf-4 -O0 -w -fno-sanitize=all)
+target_link_options(brainshift_c_abi PRIVATE -fno-sanitize=all)
 set_target_properties(brainshift_c_abi PROPERTIES OUTPUT_NAME brainshift_c SOVERSION ${soversion}
   LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/abi)
 set(check ${PROJECT_SOURCE_DIR}/capi/abi/check)

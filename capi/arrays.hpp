@@ -1,6 +1,7 @@
 // Arrays of the caller, copied. By memcpy: they need no alignment.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -41,10 +42,44 @@ inline Indices indices(const std::int32_t* values, std::int64_t count, const cha
   return list;
 }
 
+// Writes an answer; `into` holds as much as it.
+template <class Matrix>
+void write_array(const Matrix& values, typename Matrix::Scalar* into) {
+  if (values.size() > 0)
+    std::memcpy(into, values.data(), std::size_t(values.size()) * sizeof *into);
+}
+
+// d1, d2, d3 of each node: column by column, one matrix after another.
+inline const double* view_of_frames(const std::vector<Mat3>& frames) {
+  static_assert(sizeof(Mat3) == 9 * sizeof(double));
+  return frames.empty() ? nullptr : frames.front().data();
+}
+
+// The functions that fill what the caller has room for, and say how much there is.
+template <class T>
+void write_list(const T* values, std::size_t size, T* into, std::int64_t capacity,
+                std::int64_t* count, const char* what) {
+  const auto room = std::size_t(checked_count(capacity, what));
+  require_array(into, capacity, what);
+  result(count, "count") = std::int64_t(size);
+  const std::size_t written = size < room ? size : room;
+  if (written > 0) std::memcpy(into, values, written * sizeof(T));
+}
+
 inline Vec3 vector3(const double* values, const char* what) {
   Vec3 v;
   std::memcpy(v.data(), &result(values, what), 3 * sizeof(double));
   return v;
+}
+
+// The remark of functions that look for points in the mesh.
+inline brs_status remark_outside(Context& context, const Indices& tets) {
+  const auto outside = std::count(tets.begin(), tets.end(), -1);
+  if (outside == 0) return BRS_OK;
+  const std::string remark = std::to_string(outside) + " of " + std::to_string(tets.size()) +
+                             " points lie outside the mesh";
+  context.say(remark.c_str());
+  return BRS_OUTSIDE;
 }
 
 inline std::string text(const char* characters, const char* what) {

@@ -24,6 +24,16 @@ std::array<bool, 3> axes_of(int32_t axes) {
 
 }  // namespace
 
+brs_status brs_scene_set_enabled(brs_scene* scene, int32_t id, int32_t on) {
+  return guard(scene, [&](brs_scene& s) {
+    on ? s.value.constraints.enable(id) : s.value.constraints.disable(id);
+  });
+}
+
+brs_status brs_scene_remove_constraint(brs_scene* scene, int32_t id) {
+  return guard(scene, [&](brs_scene& s) { s.value.constraints.remove(id); });
+}
+
 brs_status brs_scene_add_fixed(brs_scene* scene, const char* name, const int32_t* nodes,
                                int64_t count, int32_t axes, int32_t* id) {
   return add_group(scene, id, [&](ConstraintSet& set) {

@@ -89,6 +89,22 @@ brs_status brs_context_set_progress(brs_context* context, brs_progress_fn progre
   });
 }
 
+brs_status brs_context_set_log(brs_context* context, brs_log_fn log, void* user) {
+  return guard(context, [&](brs_context& c) {
+    c.context->log = log;
+    c.context->log_user = user;
+  });
+}
+
+brs_status brs_context_set_threads(brs_context* context, int32_t threads) {
+  return guard(context, [&](brs_context& c) {
+    if (threads < 1)
+      throw Refusal(BRS_ERROR_INVALID_ARGUMENT,
+                    "the number of threads is " + std::to_string(threads) + ", not 1 or more");
+    c.context->threads = threads;
+  });
+}
+
 brs_status brs_context_set_cancel(brs_context* context, int32_t cancel) {
   const Handle* base = context;
   if (!base) return BRS_ERROR_NULL;

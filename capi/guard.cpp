@@ -47,6 +47,7 @@ const char* to_string(Kind kind) {
     case Kind::mesh: return "mesh";
     case Kind::surface: return "surface";
     case Kind::scene: return "scene";
+    case Kind::device: return "device";
     case Kind::stepper: return "stepper";
     case Kind::snapshot: return "snapshot";
   }
@@ -70,12 +71,28 @@ Call::Call(const Handle* first) noexcept {
   m_context = first->context;
   context.owner = std::this_thread::get_id();
   context.say("");
+  context.note[0] = '\0';
 }
 
 Call::~Call() {
   if (!m_context) return;
   m_context->owner = std::thread::id();
   m_context->busy.store(false, std::memory_order_release);
+}
+
+// Busy as it still is, the context refuses what the log may try to do with it.
+brs_status Call::ended(brs_status status) noexcept {
+  Context& context = *m_context;
+  const char* said = context.message[0] ? context.message : context.note;
+  if (!context.log || !said[0]) return status;
+  char kept[sizeof context.message];
+  std::memcpy(kept, context.message, sizeof kept);
+  try {
+    context.log(status, said, context.log_user);
+  } catch (...) {  // as the header says: the call has done what it has done
+  }
+  std::memcpy(context.message, kept, sizeof kept);
+  return status;
 }
 
 brs_status Call::failed() noexcept {

@@ -33,6 +33,8 @@ class Call {
   brs_status status() const noexcept { return m_status; }
   // Status of the exception in flight; its message goes to the context.
   brs_status failed() noexcept;
+  // Ends the call: the log hears what it had to say.
+  brs_status ended(brs_status status) noexcept;
 
  private:
   std::shared_ptr<Context> m_context;
@@ -65,12 +67,12 @@ brs_status guard(T* handle, Body&& body) noexcept {
     T& target = checked(handle);
     if constexpr (std::is_void_v<decltype(body(target))>) {
       body(target);
-      return BRS_OK;
+      return call.ended(BRS_OK);
     } else {
-      return body(target);
+      return call.ended(body(target));
     }
   } catch (...) {
-    return call.failed();
+    return call.ended(call.failed());
   }
 }
 

@@ -23,13 +23,17 @@ struct Context {
   std::atomic<bool> cancel{false};
   brs_progress_fn progress = nullptr;
   void* user = nullptr;
+  brs_log_fn log = nullptr;
+  void* log_user = nullptr;
+  int threads = 1;
   // Of fixed size: a message about lack of memory needs none.
   char message[1024] = "";
+  char note[256] = "";  // for the log, of a call that has gone well
 
   void say(const char* text) noexcept;  // cuts at the end of a UTF-8 character
 };
 
-enum class Kind : std::uint32_t { context, mesh, surface, scene, stepper, snapshot };
+enum class Kind : std::uint32_t { context, mesh, surface, scene, device, stepper, snapshot };
 
 const char* to_string(Kind kind);
 
@@ -84,6 +88,12 @@ struct brs_scene : brainshift::capi::TaggedHandle<brainshift::capi::Kind::scene>
   std::vector<brainshift::Compartment> compartments;
 };
 
+struct brs_device : brainshift::capi::TaggedHandle<brainshift::capi::Kind::device> {
+  brs_device(std::shared_ptr<brainshift::capi::Context> c, brainshift::BeamDevice device)
+      : TaggedHandle(std::move(c)), value(std::move(device)) {}
+  const brainshift::BeamDevice value;
+};
+
 struct brs_stepper : brainshift::capi::TaggedHandle<brainshift::capi::Kind::stepper> {
   brs_stepper(std::shared_ptr<brainshift::capi::Context> c, brainshift::Stepper stepper)
       : TaggedHandle(std::move(c)), value(std::move(stepper)) {}
@@ -92,6 +102,7 @@ struct brs_stepper : brainshift::capi::TaggedHandle<brainshift::capi::Kind::step
   std::array<brainshift::Points, 8> vectors;
   std::array<Eigen::VectorXd, 8> scalars;
   std::map<brainshift::ConstraintId, brainshift::ContactState> contacts;
+  std::map<brainshift::DeviceId, brainshift::DeviceState> devices;
 };
 
 struct brs_snapshot : brainshift::capi::TaggedHandle<brainshift::capi::Kind::snapshot> {

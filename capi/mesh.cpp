@@ -56,8 +56,6 @@ brs_status brs_mesh_faces(brs_mesh* mesh, int32_t region, const int32_t* dry_nod
                           int64_t dry_count, int32_t* faces, int64_t capacity, int64_t* count) {
   return guard(mesh, [&](brs_mesh& m) {
     const Indices nodes = indices(dry_nodes, dry_count, "dry nodes");
-    const Index most = checked_count(capacity, "faces");
-    require_array(faces, capacity, "faces");
     const auto culprit = std::find_if(nodes.begin(), nodes.end(), [&](Index node) {
       return node < 0 || node >= m.value.node_count();
     });
@@ -69,9 +67,42 @@ brs_status brs_mesh_faces(brs_mesh* mesh, int32_t region, const int32_t* dry_nod
     std::sort(body.begin(), body.end());
     std::sort(dry.begin(), dry.end());
     std::set_difference(body.begin(), body.end(), dry.begin(), dry.end(), std::back_inserter(wet));
-    result(count, "count") = int64_t(wet.size());
-    const auto written = std::min(wet.size(), std::size_t(most));
-    if (written > 0) std::memcpy(faces, wet.data(), written * sizeof *faces);
+    write_list(wet.data(), wet.size(), faces, capacity, count, "faces");
+  });
+}
+
+brs_status brs_mesh_info_init(brs_mesh_info* info, int64_t struct_size) {
+  return init(info, struct_size, brs_mesh_info{});
+}
+
+brs_status brs_mesh_describe(brs_mesh* mesh, brs_mesh_info* info) {
+  return guard(mesh, [&](brs_mesh& m) {
+    const Mesh& v = m.value;
+    write(info,
+          brs_mesh_info{sizeof(brs_mesh_info), v.node_count(), v.tet_count(), v.component_count(),
+                        v.reoriented(), v.volume(), v.diameter(), v.nodes().data(), v.tets().data(),
+                        v.regions().data(), v.components().data()},
+          "info");
+  });
+}
+
+brs_status brs_mesh_dihedrals(brs_mesh* mesh, double* degrees, int64_t capacity, int64_t* count) {
+  return guard(mesh, [&](brs_mesh& m) {
+    const Eigen::VectorXd angles = m.value.smallest_dihedrals();
+    write_list(angles.data(), std::size_t(angles.size()), degrees, capacity, count, "degrees");
+  });
+}
+
+brs_status brs_mesh_locate(brs_mesh* mesh, const double* points, int64_t count, int32_t* tets,
+                           double* weights) {
+  return guard(mesh, [&](brs_mesh& m) -> brs_status {
+    const auto asked = rows<Points>(points, count, "points");
+    require_array(tets, count, "tets");
+    if (!asked.allFinite()) throw Refusal(BRS_ERROR_NOT_FINITE, "a point is not finite");
+    const Location found = m.value.locate(asked);
+    if (count > 0) std::memcpy(tets, found.tet.data(), found.tet.size() * sizeof *tets);
+    if (weights) write_array(found.weights, weights);
+    return remark_outside(*m.context, found.tet);
   });
 }
 

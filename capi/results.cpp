@@ -1,6 +1,4 @@
 // What a stepper answers: fields, points, compartments, contacts.
-#include <algorithm>
-
 #include "arrays.hpp"
 #include "structs.hpp"
 
@@ -19,7 +17,7 @@ View view_of(const Matrix& m) {
   return {m.data(), m.rows(), m.cols()};
 }
 
-// Computes the field into its place in the handle; the displacement has its place in the stepper.
+// Computes the field into its place in the handle; what the stepper itself holds has its place there.
 View view_of_field(brs_stepper& s, int32_t field) {
   const Stepper& stepper = s.value;
   const auto vectors = [&](Points computed) {
@@ -37,6 +35,8 @@ View view_of_field(brs_stepper& s, int32_t field) {
     case BRS_FIELD_GRAVITY_FORCE: return vectors(stepper.gravity_force());
     case BRS_FIELD_FLUID_FORCE: return vectors(stepper.fluid_force());
     case BRS_FIELD_EXTERNAL_FORCE: return vectors(stepper.external_force());
+    case BRS_FIELD_VELOCITY: return view_of(stepper.velocity());
+    case BRS_FIELD_ITERATE: return view_of(stepper.iterate());
     default:
       throw Refusal(BRS_ERROR_INVALID_ARGUMENT,
                     "there is no field with the number " + std::to_string(field));
@@ -53,14 +53,9 @@ brs_status at_points(brs_stepper* stepper, Question question, const double* poin
     require_array(values, count, "values");
     const PointValues answer = (s.value.*question)(asked);
     if (count == 0) return BRS_OK;
-    std::memcpy(values, answer.values.data(), std::size_t(answer.values.size()) * sizeof *values);
+    write_array(answer.values, values);
     if (tets) std::memcpy(tets, answer.tet.data(), answer.tet.size() * sizeof *tets);
-    const auto outside = std::count(answer.tet.begin(), answer.tet.end(), -1);
-    if (outside == 0) return BRS_OK;
-    const std::string remark =
-        std::to_string(outside) + " of " + std::to_string(count) + " points lie outside the mesh";
-    s.context->say(remark.c_str());
-    return BRS_OUTSIDE;
+    return remark_outside(*s.context, answer.tet);
   });
 }
 

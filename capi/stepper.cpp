@@ -1,4 +1,5 @@
-// Stepper: settings, solve, snapshot.
+// Stepper: options, settings, snapshots, bytes.
+#include <functional>
 #include <limits>
 
 #include "arrays.hpp"
@@ -11,9 +12,15 @@ namespace {
 
 brs_stepper_options options_defaults() {
   const StepperOptions d;
-  return {sizeof(brs_stepper_options), d.residual_tolerance, d.complementarity_tolerance,
-          d.correction_tolerance,      d.max_iterations,     d.smallest_load_step,
-          d.initial_penetration};
+  return {sizeof(brs_stepper_options),
+          d.residual_tolerance,
+          d.complementarity_tolerance,
+          d.correction_tolerance,
+          d.max_iterations,
+          d.smallest_load_step,
+          d.initial_penetration,
+          0,
+          d.time_limit};
 }
 
 // What StepperOptions::progress asks: shall the solve go on?
@@ -28,51 +35,36 @@ bool keep_going(const Context& context, const Progress& p) {
   }
 }
 
+std::function<bool(const Progress&)> progress_of(std::shared_ptr<Context> context) {
+  return [context](const Progress& p) { return keep_going(*context, p); };
+}
+
 StepperOptions options_of(const brs_stepper_options& given, std::shared_ptr<Context> context) {
   if (given.max_iterations < 0 || given.max_iterations > std::numeric_limits<int>::max())
     throw Refusal(BRS_ERROR_INVALID_ARGUMENT, "options->max_iterations is " +
                                                   std::to_string(given.max_iterations) +
                                                   ", negative or too large");
+  if (given.threads < 0 || given.threads > std::numeric_limits<int>::max())
+    throw Refusal(
+        BRS_ERROR_INVALID_ARGUMENT,
+        "options->threads is " + std::to_string(given.threads) + ", negative or too large");
   StepperOptions options;
+  options.threads = given.threads > 0 ? int(given.threads) : context->threads;
+  options.time_limit = given.time_limit;
   options.residual_tolerance = given.residual_tolerance;
   options.complementarity_tolerance = given.complementarity_tolerance;
   options.correction_tolerance = given.correction_tolerance;
   options.max_iterations = int(given.max_iterations);
   options.smallest_load_step = given.smallest_load_step;
   options.initial_penetration = given.initial_penetration;
-  options.progress = [context](const Progress& p) { return keep_going(*context, p); };
+  options.progress = progress_of(std::move(context));
   return options;
 }
 
-brs_status status_of(Status status) {
-  switch (status) {
-    case Status::converged: return BRS_OK;
-    case Status::no_equilibrium: return BRS_NO_EQUILIBRIUM;
-    case Status::not_converged: return BRS_NOT_CONVERGED;
-    case Status::cancelled: return BRS_CANCELLED;
-  }
-  return BRS_ERROR_INTERNAL;
-}
-
-brs_solve_report report_of(const SolveReport& r) {
-  return {sizeof(brs_solve_report),
-          status_of(r.status),
-          r.residual,
-          r.complementarity,
-          r.violation,
-          r.last_correction,
-          r.smallest_jacobian,
-          r.energy,
-          r.load_factor,
-          r.load_steps,
-          r.iterations,
-          r.factorisations,
-          r.shifted_factorisations,
-          r.active_contacts,
-          r.seconds,
-          r.seconds_assembly,
-          r.seconds_factor,
-          r.seconds_line_search};
+Bytes bytes_given(const std::uint8_t* bytes, std::int64_t count) {
+  const Index size = checked_count(count, "bytes");
+  require_array(bytes, count, "bytes");
+  return Bytes(bytes, bytes + size);
 }
 
 void set_csf(Csf& csf, int32_t compartment, int32_t law, double amount) {
@@ -112,6 +104,20 @@ brs_status brs_stepper_set_gravity(brs_stepper* stepper, const double* gravity) 
   return guard(stepper, [&](brs_stepper& s) { s.value.set_gravity(vector3(gravity, "gravity")); });
 }
 
+brs_status brs_stepper_set_damping(brs_stepper* stepper, double alpha, double beta) {
+  return guard(stepper, [&](brs_stepper& s) { s.value.set_damping({alpha, beta}); });
+}
+
+brs_status brs_stepper_set_velocity(brs_stepper* stepper, const double* velocity, int64_t count) {
+  return guard(stepper, [&](brs_stepper& s) {
+    s.value.set_velocity(rows<Points>(velocity, count, "velocities"));
+  });
+}
+
+brs_status brs_stepper_check_settings(brs_stepper* stepper) {
+  return guard(stepper, [&](brs_stepper& s) { s.value.check_settings(); });
+}
+
 brs_status brs_stepper_set_enabled(brs_stepper* stepper, int32_t id, int32_t on) {
   return guard(stepper, [&](brs_stepper& s) { on ? s.value.enable(id) : s.value.disable(id); });
 }
@@ -119,20 +125,6 @@ brs_status brs_stepper_set_enabled(brs_stepper* stepper, int32_t id, int32_t on)
 brs_status brs_stepper_set_csf(brs_stepper* stepper, int32_t compartment, int32_t law,
                                double amount) {
   return guard(stepper, [&](brs_stepper& s) { set_csf(s.value.csf(), compartment, law, amount); });
-}
-
-brs_status brs_solve_report_init(brs_solve_report* report, int64_t struct_size) {
-  return init(report, struct_size, report_of(SolveReport()));
-}
-
-brs_status brs_stepper_solve_static(brs_stepper* stepper, brs_solve_report* report) {
-  return guard(stepper, [&](brs_stepper& s) {
-    if (report) checked_size(report, "report");  // before the state changes
-    const SolveReport solved = s.value.solve_static();
-    if (report) write(report, report_of(solved), "report");
-    s.context->say(solved.message.c_str());
-    return status_of(solved.status);
-  });
 }
 
 brs_status brs_stepper_snapshot(brs_stepper* stepper, brs_snapshot** snapshot) {
@@ -145,3 +137,34 @@ brs_status brs_stepper_restore(brs_stepper* stepper, brs_snapshot* snapshot) {
 }
 
 brs_status brs_snapshot_destroy(brs_snapshot* snapshot) { return destroy_immutable(snapshot); }
+
+brs_status brs_snapshot_bytes(brs_snapshot* snapshot, uint8_t* bytes, int64_t capacity,
+                              int64_t* count) {
+  return guard(snapshot, [&](brs_snapshot& s) {
+    const Bytes all = bytes_of(*s.value);
+    write_list(all.data(), all.size(), bytes, capacity, count, "bytes");
+  });
+}
+
+brs_status brs_stepper_read_snapshot(brs_stepper* stepper, const uint8_t* bytes, int64_t count,
+                                     brs_snapshot** snapshot) {
+  return create(stepper, snapshot, "snapshot", [&](brs_stepper& s) {
+    return new brs_snapshot(s.context, s.value.read_snapshot(bytes_given(bytes, count)));
+  });
+}
+
+brs_status brs_stepper_record(brs_stepper* stepper, uint8_t* bytes, int64_t capacity,
+                              int64_t* count) {
+  return guard(stepper, [&](brs_stepper& s) {
+    const Bytes all = s.value.record();
+    write_list(all.data(), all.size(), bytes, capacity, count, "bytes");
+  });
+}
+
+brs_status brs_stepper_replay(brs_context* context, const uint8_t* bytes, int64_t count,
+                              brs_stepper** stepper) {
+  return create(context, stepper, "stepper", [&](brs_context& c) {
+    return new brs_stepper(c.context,
+                           Stepper::replay(bytes_given(bytes, count), progress_of(c.context)));
+  });
+}

@@ -26,6 +26,21 @@ inline constexpr std::int64_t first_size<brs_compartment_state> = 56;
 template <>
 inline constexpr std::int64_t first_size<brs_contact_state> = 48;
 
+template <>
+inline constexpr std::int64_t first_size<brs_mesh_info> = 88;
+template <>
+inline constexpr std::int64_t first_size<brs_device_options> = 32;
+template <>
+inline constexpr std::int64_t first_size<brs_device_entry> = 88;
+template <>
+inline constexpr std::int64_t first_size<brs_device_info> = 64;
+template <>
+inline constexpr std::int64_t first_size<brs_hold> = 40;
+template <>
+inline constexpr std::int64_t first_size<brs_track_options> = 32;
+template <>
+inline constexpr std::int64_t first_size<brs_device_state> = 168;
+
 template <class T>
 bool known_size(std::int64_t size) noexcept {
   static_assert(first_size<T> > 0 && std::int64_t(sizeof(T)) >= first_size<T>);

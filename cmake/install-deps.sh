@@ -10,7 +10,8 @@ Groups (default: core):
   core   compiler, CMake, Ninja, Eigen, SuiteSparse, METIS, a serial OpenBLAS, and the libraries of
          the io target and the examples
   test   GoogleTest; Python with numpy and VTK for checks against VTK; where it can be had,
-         Siconos for a cross-check of complementarity problems
+         Siconos for a cross-check of complementarity problems, abidiff for the ABI of the C face,
+         Doxygen for the reference
   data   what examples/head needs to make the head anew: volumes, CGAL, Python packages
   fuzz   clang with libFuzzer and clang-tidy, for tests/robustness
   docs   what draws pictures and charts: VTK, matplotlib, a virtual X server
@@ -80,7 +81,12 @@ END
 # The same for what a group can do without: tests that need it are skipped, and say so.
 optional_of() {
   case "$1" in
-    test) echo 'libsiconos-numerics-dev|header:siconos/SiconosConfig.h|Siconos' ;;
+    test) cat <<'END'
+libsiconos-numerics-dev|header:siconos/SiconosConfig.h|Siconos
+abigail-tools|command:abidiff|abidiff
+doxygen|command:doxygen|Doxygen
+END
+      ;;
   esac
 }
 

@@ -67,8 +67,10 @@ if(TARGET brainshift_io)
 endif()
 if(TARGET brainshift_c)
   install(FILES include/brainshift/c/brainshift.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/brainshift/c)
+  # The Python module looks for the library two folders above.
+  install(FILES python/brainshift.py DESTINATION ${CMAKE_INSTALL_LIBDIR}/brainshift/python)
   brainshift_install(brainshift_c c brainshift_c)
-  brainshift_pkg_config(brainshift-c "The C face of libbrainshift" brainshift_c "" "")
+  brainshift_pkg_config(brainshift_c "The C face of libbrainshift" brainshift_c "" "")
 endif()
 
 configure_package_config_file(cmake/brainshiftConfig.cmake.in brainshiftConfig.cmake

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "brainshift/beam_device.hpp"
 #include "brainshift/types.hpp"
@@ -45,6 +46,7 @@ struct TrackOptions {
 struct DeviceState {
   std::string name;
   Points nodes;                  // N x 3, mm; node 0 is the tip
+  std::vector<Mat3> frames;      // N; columns d1 (along the device), d2, d3
   Points contact_centres;        // stimulating contacts, from the tip
   Points path;                   // P x 3: where the material points of the track are now
   Eigen::VectorXd path_arcs;     // P; arc length on the device; NaN where the tip is above the point

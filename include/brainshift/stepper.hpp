@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -58,6 +59,9 @@ struct StepperOptions {
   int threads = 1;
   // Accepted at the start and of obstacles enabled later, relative to the diameter.
   double initial_penetration = 1e-6;
+  // s of wall time since the begin of a solve; the first Newton iteration that ends later stops it
+  // with Status::cancelled.
+  double time_limit = std::numeric_limits<double>::infinity();
   // Called after every Newton iteration; false stops the solve with Status::cancelled. It must not
   // call the phases of a solve.
   std::function<bool(const Progress&)> progress;
@@ -277,9 +281,20 @@ class Stepper {
   std::shared_ptr<const Snapshot> snapshot() const;
   void restore(const std::shared_ptr<const Snapshot>& snapshot);
 
+  // Snapshots as bytes, to be kept in files: bytes_of() below, and back, in a stepper of the same
+  // scene. Versioned and checksummed; read_snapshot() throws Error(file) for what is damaged or of
+  // another version, Error(invalid_argument) for another mesh, other constraints or compartments.
+  std::shared_ptr<const Snapshot> read_snapshot(const Bytes& bytes) const;
+  // The scene, the options (save `progress`), state and settings: all that a bug report needs. The
+  // stepper made from it goes on with the same bits in the same build. replay() throws Error(file).
+  Bytes record() const;
+  static Stepper replay(const Bytes& bytes, std::function<bool(const Progress&)> progress = {});
+
  private:
   class Impl;
   std::unique_ptr<Impl> m_impl;
 };
+
+Bytes bytes_of(const Stepper::Snapshot& snapshot);
 
 }  // namespace brainshift

@@ -27,6 +27,8 @@ class Surface {
 
   const Points& points() const;
   const Triangles& triangles() const;
+  const SurfaceOptions& options() const;
+  bool is_cavity() const;
 
   struct Sample {
     double distance;  // mm

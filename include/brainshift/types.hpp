@@ -10,6 +10,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "brainshift/eigen_abi.hpp"
+
 namespace brainshift {
 
 using Index = std::int32_t;
@@ -27,6 +29,7 @@ using EdgeNodes = Eigen::Matrix<Index, Eigen::Dynamic, 6, Eigen::RowMajor>;
 using Triangles = Eigen::Matrix<Index, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 using Indices = std::vector<Index>;
+using Bytes = std::vector<std::uint8_t>;
 
 constexpr double standard_gravity = 9810.0;  // mm/s^2
 constexpr double mm3_per_ml = 1000.0;

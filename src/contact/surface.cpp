@@ -19,6 +19,8 @@ struct Surface::Data {
   Points points;
   Triangles triangles;
   TricubicSpline spline;
+  SurfaceOptions options;
+  SurfaceKind kind;
 };
 
 namespace {
@@ -157,7 +159,8 @@ Surface Surface::cavity(Points points, Triangles triangles, SurfaceOptions optio
                     " mm^3");
   TricubicSpline spline = spline_of(points, triangles, SurfaceKind::cavity, options);
   return Surface(std::make_shared<const Data>(
-      Data{std::move(points), std::move(triangles), std::move(spline)}));
+      Data{std::move(points), std::move(triangles), std::move(spline), options,
+           SurfaceKind::cavity}));
 }
 
 Surface Surface::sheet(Points points, Triangles triangles, SurfaceOptions options) {
@@ -166,11 +169,14 @@ Surface Surface::sheet(Points points, Triangles triangles, SurfaceOptions option
   require_manifold(Index(points.rows()), triangles, "the sheet");
   TricubicSpline spline = spline_of(points, triangles, SurfaceKind::sheet, options);
   return Surface(std::make_shared<const Data>(
-      Data{std::move(points), std::move(triangles), std::move(spline)}));
+      Data{std::move(points), std::move(triangles), std::move(spline), options,
+           SurfaceKind::sheet}));
 }
 
 const Points& Surface::points() const { return m_data->points; }
 const Triangles& Surface::triangles() const { return m_data->triangles; }
+const SurfaceOptions& Surface::options() const { return m_data->options; }
+bool Surface::is_cavity() const { return m_data->kind == SurfaceKind::cavity; }
 
 // Off the grid the distance goes on linearly from the nearest point of the grid. The gradient is
 // that of this continuation; its Hessian leaves out the third derivatives of the spline.

@@ -49,7 +49,15 @@ void Solve::solve() {
   m_phase = StepPhase::solved;
 }
 
-void Solve::update() { settle(m_newton.update()); }
+void Solve::update() {
+  const Newton::Outcome outcome = m_newton.update();
+  settle(outcome == Newton::Outcome::ongoing && is_late() ? Newton::Outcome::cancelled : outcome);
+}
+
+bool Solve::is_late() const {
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - m_begin;
+  return spent.count() > m_options.time_limit;
+}
 
 // No part of a load that is not finite can be let go, and no step be found from there.
 void Solve::refuse_start() {
@@ -96,7 +104,8 @@ bool Solve::halve_load_step(Newton::Outcome outcome) {
   m_newton.describe();
   if (outcome == Newton::Outcome::cancelled) {
     m_report.status = Status::cancelled;
-    m_report.message = "the host asked to stop";
+    m_report.message = is_late() ? "the time limit of " + text(m_options.time_limit) + " s has passed"
+                                 : "the host asked to stop";
     return false;
   }
   // Where the iterations run out on a tangent that is still positive, more of them may help.

@@ -2,6 +2,7 @@
 // into balance by Newton's method. Works on copies; the owner takes the result or throws it away.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,7 @@ class Solve {
   void settle(Newton::Outcome outcome);
   bool halve_load_step(Newton::Outcome outcome);
   std::string hint(bool stuck) const;
+  bool is_late() const;
   void finish();
   void fail(const std::string& message);
 
@@ -57,6 +59,7 @@ class Solve {
   Offset m_unbalanced;         // what was out of balance at the begin
   double m_reached = 0.0, m_next = 0.0, m_step = 1.0;  // parts of the load
   StepPhase m_phase = StepPhase::begun;
+  const std::chrono::steady_clock::time_point m_begin = std::chrono::steady_clock::now();
 };
 
 }  // namespace brainshift

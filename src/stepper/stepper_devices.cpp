@@ -119,6 +119,7 @@ DeviceState Stepper::device(DeviceId id) const {
   DeviceState s;
   s.name = d.beam.device().name();
   s.nodes = beam.x;
+  s.frames = beam.R;
   const auto& contacts = d.beam.device().contacts();
   s.contact_centres.resize(Eigen::Index(contacts.size()), 3);
   for (std::size_t c = 0; c < contacts.size(); ++c) {

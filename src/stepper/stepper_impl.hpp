@@ -47,8 +47,11 @@ class Stepper::Impl {
   using State = Snapshot;
 
   Impl(Scene scene, StepperOptions options)
-      : m_mesh(scene.mesh), m_options(std::move(options)), m_equilibrium(scene), m_state(m_mesh),
-        m_scene(scene) {
+      : m_scene(scene),
+        m_mesh(scene.mesh),
+        m_options(std::move(options)),
+        m_equilibrium(scene),
+        m_state(m_mesh) {
     check_options();
     m_equilibrium.set_threads(m_options.threads);
     m_state.wanted = {std::move(scene.csf), std::move(scene.constraints), scene.gravity, {}};
@@ -71,6 +74,7 @@ class Stepper::Impl {
     require(m_options.initial_penetration >= 0.0, "initial_penetration is negative");
     require(m_options.max_iterations > 0, "max_iterations is not positive");
     require(m_options.threads > 0, "threads is not positive");
+    require(m_options.time_limit >= 0.0, "time_limit is negative or not a number");
   }
 
   // At the start, and where a host enables an obstacle that tissue is in by then.
@@ -149,11 +153,11 @@ class Stepper::Impl {
     throw Error(ErrorCode::invalid_argument, "there is no device with the id " + std::to_string(id));
   }
 
+  Scene m_scene;   // as it was given
   Mesh m_mesh;
   StepperOptions m_options;
   Equilibrium m_equilibrium;
   Snapshot m_state;
-  Scene m_scene;             // as given: where the error estimate starts from
   FactorCache m_cache;
   std::unique_ptr<OpenSolve> m_open;
   bool m_in_phase = false;   // a callback must not end the solve it is called from

@@ -147,6 +147,44 @@ TEST(Cancel, FromAnotherThreadAtEveryPollLeavesTheStateUnchanged) {
   }
 }
 
+// The same with a device and in time: nothing of tissue, fluid, device or velocity has moved.
+TEST(Cancel, OfAStepWithADeviceAtEveryPollLeavesTheStateUnchanged) {
+  Host host;
+  World& w = host.w;
+  const double tip[] = {15.0, 15.0, 8.0}, outward[] = {0.0, 0.0, 1.0};
+  brs_hold hold;
+  brs_device_state state;
+  brs_hold_init(&hold, sizeof hold);
+  brs_device_state_init(&state, sizeof state);
+  hold.anchor = 20.0;
+  std::int32_t id = -1;
+  w.good(brs_stepper_insert(w.stepper, w.device, tip, outward, &hold, nullptr, &id));
+  w.good(brs_stepper_set_csf(w.stepper, 0, BRS_CSF_LOST_VOLUME, 5000.0));
+  const auto snapshot_bytes = [&] {
+    brs_snapshot* now = nullptr;
+    std::int64_t count = 0;
+    w.good(brs_stepper_snapshot(w.stepper, &now));
+    w.good(brs_snapshot_bytes(now, nullptr, 0, &count));
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(count));
+    w.good(brs_snapshot_bytes(now, bytes.data(), count, &count));
+    brs_snapshot_destroy(now);
+    return bytes;
+  };
+  const std::vector<std::uint8_t> before = snapshot_bytes();
+  int polls = 1;
+  for (int poll = 1; polls > 0 && poll < 100; ++poll) {
+    host.calls = 0;
+    host.answer = [&](const brs_progress&) { return host.calls == poll ? 1 : 0; };
+    const brs_status status = brs_stepper_step(w.stepper, 0.02, nullptr);
+    if (status == BRS_OK) break;   // it was over before this poll
+    EXPECT_EQ(status, BRS_CANCELLED) << w.message();
+    EXPECT_EQ(snapshot_bytes(), before) << "poll " << poll;
+    polls = poll;
+  }
+  EXPECT_GT(polls, 1);
+  EXPECT_NE(snapshot_bytes(), before);
+}
+
 TEST(Threads, ASecondOneIsRefusedWhileACallRuns) {
   Host host;
   std::atomic<brs_status> seen{BRS_OK};

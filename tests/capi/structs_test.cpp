@@ -41,6 +41,13 @@ TEST(Structs, InitKnowsItsSizes) {
   expect_sizes_checked(&brs_solve_report_init, "solve_report");
   expect_sizes_checked(&brs_compartment_state_init, "compartment_state");
   expect_sizes_checked(&brs_contact_state_init, "contact_state");
+  expect_sizes_checked(&brs_mesh_info_init, "mesh_info");
+  expect_sizes_checked(&brs_device_options_init, "device_options");
+  expect_sizes_checked(&brs_device_entry_init, "device_entry");
+  expect_sizes_checked(&brs_device_info_init, "device_info");
+  expect_sizes_checked(&brs_hold_init, "hold");
+  expect_sizes_checked(&brs_track_options_init, "track_options");
+  expect_sizes_checked(&brs_device_state_init, "device_state");
 }
 
 TEST(Structs, OfUnknownSizeAreRefusedByEveryFunction) {
@@ -101,6 +108,8 @@ TEST(Structs, DefaultsAreThoseOfTheLibrary) {
   EXPECT_EQ(options.max_iterations, expected.max_iterations);
   EXPECT_EQ(options.smallest_load_step, expected.smallest_load_step);
   EXPECT_EQ(options.initial_penetration, expected.initial_penetration);
+  EXPECT_EQ(options.time_limit, expected.time_limit);
+  EXPECT_EQ(options.threads, 0);
 }
 
 TEST(Versions, OfHeaderAndLibraryMustGoTogether) {

@@ -60,6 +60,7 @@ class World {
     make_scene();
     good(brs_stepper_create(scene, nullptr, &stepper));
     good(brs_stepper_snapshot(stepper, &snapshot));
+    good(brs_device_create_named(context, "3389", 20.0, nullptr, &device));
   }
 
   ~World() {
@@ -67,6 +68,7 @@ class World {
     brs_mesh_destroy(mesh);
     brs_surface_destroy(surface);
     brs_scene_destroy(scene);
+    brs_device_destroy(device);
     brs_stepper_destroy(stepper);
     brs_snapshot_destroy(snapshot);
   }
@@ -99,6 +101,7 @@ class World {
   brs_mesh* mesh = nullptr;
   brs_surface* surface = nullptr;
   brs_scene* scene = nullptr;
+  brs_device* device = nullptr;
   brs_stepper* stepper = nullptr;
   brs_snapshot* snapshot = nullptr;
   std::int32_t contact = -1;

@@ -174,7 +174,7 @@ Spread spread(Element element, const Shape& shape, const Give& give) {
 TEST(LateralStiffness, OfTheClosedForm) { EXPECT_NEAR(annulus(r), 3.3399, 1e-4); }
 
 // 50 places on irregular meshes of two kinds. What a tet's shape and the place of the line in it do is
-// not in the local give: the mean is within an eighth, each place within a quarter of the annulus'.
+// not in the local give: the mean is within 6 %, each place within a quarter of the annulus'.
 TEST(LateralStiffness, WithTheLocalGiveIsNearThatOfTheAnnulus) {
   for (Element element : {Element::linear, Element::nodal_volume}) {
     for (bool leaning : {false, true}) {
@@ -188,9 +188,9 @@ TEST(LateralStiffness, WithTheLocalGiveIsNearThatOfTheAnnulus) {
             name_of(element).c_str(), leaning ? "leaning" : "upright", h, plain.mean, plain.low,
             plain.high, given.mean, given.low, given.high);
         EXPECT_GT(plain.mean, 1.15);
-        EXPECT_NEAR(given.mean, 1.0, 0.125);
-        EXPECT_GE(given.low, 0.75);
-        EXPECT_LE(given.high, 1.25);
+        EXPECT_NEAR(given.mean, 1.0, 0.06);
+        EXPECT_GE(given.low, 0.74);
+        EXPECT_LE(given.high, 1.16);
       }
     }
   }

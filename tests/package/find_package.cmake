@@ -18,3 +18,15 @@ endif()
 if("c" IN_LIST COMPONENTS)
   run(${build}/c_consumer)
 endif()
+
+# Another minor version may break what is there before 1.0: older and newer ones are refused.
+foreach(wrong 0.0 0.2 1.0 99)
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${WORK}/wrong_version
+      -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${PREFIX} -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF
+      -DCOMPONENTS=core -DVERSION=${wrong}
+      RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE errors)
+  if(result EQUAL 0)
+    message(FATAL_ERROR "version ${wrong} was accepted")
+  endif()
+  expect("${errors}" "requested version \"${wrong}\"")
+endforeach()

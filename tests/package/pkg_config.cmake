@@ -29,5 +29,29 @@ if("io" IN_LIST COMPONENTS)
   expect("${OUTPUT}" "read back 1 tet")
 endif()
 if("c" IN_LIST COMPONENTS)
-  build_by_pkg_config(brainshift-c ${C_COMPILER} -std=c99 ${SOURCE}/examples/hello.c c_consumer)
+  build_by_pkg_config(brainshift_c ${C_COMPILER} -std=c99 ${SOURCE}/examples/hello.c c_consumer)
+endif()
+
+# A wrong version is refused, by name.
+execute_process(COMMAND ${PKG_CONFIG} --print-errors "brainshift >= 99" RESULT_VARIABLE result
+                ERROR_VARIABLE errors)
+if(result EQUAL 0)
+  message(FATAL_ERROR "version 99 was found")
+endif()
+expect("${errors}" "99")
+
+# A program whose flags make Eigen align or allocate otherwise does not link, and the linker says why.
+function(expect_refused flag how)
+  run(${PKG_CONFIG} --cflags --libs brainshift)
+  separate_arguments(flags UNIX_COMMAND "${OUTPUT}")
+  execute_process(COMMAND ${CXX_COMPILER} -std=c++17 ${flag} ${sources}/consumer.cpp -o ${build}/other ${flags}
+                  RESULT_VARIABLE result ERROR_VARIABLE errors)
+  if(result EQUAL 0)
+    message(FATAL_ERROR "a consumer built with ${flag} was linked to a library built without")
+  endif()
+  expect("${errors}" "brainshift_is_built_with_other_vector_flags__this_program_aligns_by_${how}")
+endfunction()
+if(PROCESSOR MATCHES "x86_64|AMD64" AND NOT CXX_FLAGS MATCHES "-m(avx|arch)|-fsanitize")
+  expect_refused(-mavx2 "32_and_32")
+  expect_refused(-fsanitize=address "16_and_16_malloc_0")
 endif()

@@ -1,17 +1,19 @@
-/* libbrainshift in C: how the brain moves when cerebrospinal fluid (CSF) is lost.
+/* libbrainshift in C: how the brain, and an electrode in it, move when cerebrospinal fluid (CSF) is
+ * lost. docs/c-api.md says the same at more length.
  *
  * Units: mm, kg, s; hence force mN, stress kPa, energy uJ, density kg/mm^3; 1 mL = 1000 mm^3.
  * Arrays: row-major float64 and int32, as numpy and VTK hold them. Arrays passed in are read during
  * the call only and need no alignment. Counts are rows, 0 <= count < 2^31; NULL goes with count 0.
+ * Each array is documented as "name: rows x columns", or "name: rows".
  *
  * Status: negative: refused or failed, nothing has changed. 0: done. Positive: done, with a remark.
  * brs_context_message() says the same in a sentence. Every function may return BRS_ERROR_NULL,
  * _HANDLE, _BUSY or _MEMORY; the others are listed with it.
  *
  * Handles: the caller owns what *_create returns (set to NULL on failure) and destroys it in any
- * order; destroying NULL is fine. Meshes, surfaces and snapshots never change and may be used from
- * other contexts and threads. A handle of the wrong type is refused; using a destroyed handle is
- * undefined. A call reports to the context of its first handle; where that is NULL, no message is
+ * order; destroying NULL is fine. Meshes, surfaces, devices and snapshots never change and may be
+ * given to calls in other contexts and threads. A handle of the wrong type is refused; using a
+ * destroyed handle is undefined. A call reports to the context of its first handle; where that is NULL, no message is
  * kept.
  *
  * Threads: one call at a time per context, BRS_ERROR_BUSY otherwise (so from a callback too);
@@ -91,7 +93,7 @@ enum {
 /* "BRS_OK" and so on; "unknown status" for any other number. */
 BRS_API const char* brs_status_name(brs_status status);
 
-/* ---- context: messages, progress, cancel ----------------------------------------------------- */
+/* ---- context: messages, log, progress, cancel, threads ----------------------------------------- */
 
 typedef struct brs_context brs_context;
 
@@ -104,6 +106,16 @@ BRS_API brs_status brs_context_destroy(brs_context* context);
 /* What the last call had to say, one sentence; "" after BRS_OK. Valid until the next call in the
  * context; callable from the thread that made the call, and from a callback. Never NULL. */
 BRS_API const char* brs_context_message(const brs_context* context);
+
+/* status: of the call that ends; text: its message, or one line about a solve that went well. */
+typedef void (*brs_log_fn)(brs_status status, const char* text, void* user);
+
+/* Called at the end of every call in the context that has something to say; NULL: no log. Calls into
+ * the context from there are refused with BRS_ERROR_BUSY; an exception out of it is dropped. */
+BRS_API brs_status brs_context_set_log(brs_context* context, brs_log_fn log, void* user);
+/* Threads of each solve, 1 or more, the calling one among them, in steppers made from now on whose
+ * options do not say. Results are the same bits for any number. INVALID_ARGUMENT. */
+BRS_API brs_status brs_context_set_threads(brs_context* context, int32_t threads);
 
 typedef struct brs_progress {
   int64_t struct_size;
@@ -127,8 +139,8 @@ BRS_API brs_status brs_context_set_cancel(brs_context* context, int32_t cancel);
 
 typedef struct brs_mesh brs_mesh;
 
-/* nodes: node_count x 3, mm. tets: tet_count x 4 nodes, (p1-p0) x (p2-p0) . (p3-p0) > 0; orient:
- * non-zero turns those of negative volume instead of refusing them. regions: tet_count labels, or
+/* nodes: node_count x 3, mm. tets: tet_count x 4, nodes, (p1-p0) x (p2-p0) . (p3-p0) > 0; orient:
+ * non-zero turns those of negative volume instead of refusing them. regions: tet_count, labels, or
  * NULL for all 0. Errors name the first culprit: EMPTY, NOT_FINITE, INDEX_OUT_OF_RANGE,
  * INVERTED_ELEMENT, DEGENERATE_ELEMENT, DUPLICATE_ELEMENT, ORPHAN_NODE, SIZE. */
 BRS_API brs_status brs_mesh_create(brs_context* context, const double* nodes, int64_t node_count,
@@ -136,11 +148,35 @@ BRS_API brs_status brs_mesh_create(brs_context* context, const double* nodes, in
                                    int32_t orient, brs_mesh** mesh);
 BRS_API brs_status brs_mesh_destroy(brs_mesh* mesh);
 
-/* Boundary faces, count x 3 nodes, outward. Valid as long as the mesh. */
+typedef struct brs_mesh_info {
+  int64_t struct_size;
+  int64_t node_count, tet_count, component_count;
+  int64_t reoriented;        /* tets that were turned */
+  double volume;             /* mm^3 */
+  double diameter;           /* mm; diagonal of the bounding box */
+  const double* nodes;       /* node_count x 3, mm */
+  const int32_t* tets;       /* tet_count x 4 */
+  const int32_t* regions;    /* tet_count */
+  const int32_t* components; /* node_count; connected component of each node, from 0 */
+} brs_mesh_info;
+
+BRS_API brs_status brs_mesh_info_init(brs_mesh_info* info, int64_t struct_size);
+/* Its arrays are valid as long as the mesh. STRUCT_SIZE. */
+BRS_API brs_status brs_mesh_describe(brs_mesh* mesh, brs_mesh_info* info);
+/* Smallest dihedral angle of each tet, degrees. degrees: capacity. count: number of tets; the first
+ * `capacity` are written. SIZE. */
+BRS_API brs_status brs_mesh_dihedrals(brs_mesh* mesh, double* degrees, int64_t capacity,
+                                      int64_t* count);
+/* Where points lie: the tet that holds each, -1 outside, and its weights (barycentric; 0 outside).
+ * points: count x 3, mm. tets: count. weights: count x 4, or NULL. SIZE, NOT_FINITE. Remark:
+ * OUTSIDE. */
+BRS_API brs_status brs_mesh_locate(brs_mesh* mesh, const double* points, int64_t count,
+                                   int32_t* tets, double* weights);
+/* Boundary faces, outward; valid as long as the mesh. triangles: count x 3, nodes. */
 BRS_API brs_status brs_mesh_surface(brs_mesh* mesh, const int32_t** triangles, int64_t* count);
-/* Rows of the surface that belong to tets of `region`, without those whose nodes are all among
- * `dry_nodes` (a cut, a seam, a base), ascending. *count: how many there are; the first `capacity`
- * of them are written to `faces`. INDEX_OUT_OF_RANGE, SIZE. */
+/* Rows of the surface that belong to tets of `region`, ascending, without those whose nodes are all
+ * dry (a cut, a seam, a base). dry_nodes: dry_count, or none. faces: capacity. count: how many; the
+ * first `capacity` of them are written. INDEX_OUT_OF_RANGE, SIZE. */
 BRS_API brs_status brs_mesh_faces(brs_mesh* mesh, int32_t region, const int32_t* dry_nodes,
                                   int64_t dry_count, int32_t* faces, int64_t capacity,
                                   int64_t* count);
@@ -169,7 +205,7 @@ BRS_API brs_status brs_surface_create(brs_context* context, int32_t kind, const 
                                       int64_t triangle_count, const brs_surface_options* options,
                                       brs_surface** surface);
 BRS_API brs_status brs_surface_destroy(brs_surface* surface);
-/* distances: count, mm, signed, at the points (count x 3, mm). SIZE, NOT_FINITE. */
+/* Signed distances at points. points: count x 3, mm. distances: count, mm. SIZE, NOT_FINITE. */
 BRS_API brs_status brs_surface_distance(brs_surface* surface, const double* points, int64_t count,
                                         double* distances);
 
@@ -195,7 +231,7 @@ BRS_API brs_status brs_material_init(brs_material* material, int64_t struct_size
 /* Every region of the mesh needs one; a second replaces the first. INVALID_ARGUMENT, NOT_FINITE. */
 BRS_API brs_status brs_scene_set_material(brs_scene* scene, int32_t region,
                                           const brs_material* material);
-/* gravity: 3 numbers, mm/s^2. NOT_FINITE. */
+/* gravity: 3, mm/s^2. NOT_FINITE. */
 BRS_API brs_status brs_scene_set_gravity(brs_scene* scene, const double* gravity);
 /* Non-zero: the mesh is an image taken under gravity and full CSF, in balance with them, and loads
  * are differences from that. 0: the mesh is free of load; gravity and CSF act in full. */
@@ -214,13 +250,15 @@ BRS_API brs_status brs_scene_set_csf(brs_scene* scene, double density, int32_t m
 typedef struct brs_compartment {
   int64_t struct_size;
   const char* name;
-  const double* wall_points; /* closed rigid wall around tissue, fluid and air: count x 3, mm */
+  /* Closed rigid wall around tissue, fluid and air, triangles outward. */
+  const double* wall_points; /* wall_point_count x 3, mm */
   int64_t wall_point_count;
-  const int32_t* wall_triangles; /* count x 3, outward */
+  const int32_t* wall_triangles; /* wall_triangle_count x 3 */
   int64_t wall_triangle_count;
-  const int32_t* body_faces; /* rows of the mesh surface: closed surface of the tissue inside */
+  /* Rows of the mesh surface: the closed surface of the tissue inside, and what fluid wets of it. */
+  const int32_t* body_faces; /* body_face_count */
   int64_t body_face_count;
-  const int32_t* wetted_faces; /* the part of it that fluid can wet */
+  const int32_t* wetted_faces; /* wetted_face_count */
   int64_t wetted_face_count;
 } brs_compartment;
 
@@ -231,33 +269,118 @@ BRS_API brs_status brs_scene_add_compartment(brs_scene* scene, const brs_compart
                                              int32_t* index);
 
 /* ---- constraints: groups with a name and an id ---------------------------------------------------
- * nodes: count numbers. id: written if not NULL; stays valid in the steppers made from the scene.
- * Node numbers are checked by brs_stepper_create. All: INVALID_ARGUMENT, EMPTY, SIZE. */
+ * id: of the group, or NULL; stays valid in the steppers made from the scene. Node numbers are
+ * checked by brs_stepper_create. All: INVALID_ARGUMENT, EMPTY, SIZE. */
 
 enum { BRS_AXIS_X = 1, BRS_AXIS_Y = 2, BRS_AXIS_Z = 4, BRS_AXES = 7 };
 
-/* The displacement of the nodes is zero along `axes`, a sum of the above. */
+/* The displacement of the nodes is zero along `axes`, a sum of the above. nodes: count. */
 BRS_API brs_status brs_scene_add_fixed(brs_scene* scene, const char* name, const int32_t* nodes,
                                        int64_t count, int32_t axes, int32_t* id);
-/* nodes[i] and partners[i] have the same displacement. */
+/* nodes[i] and partners[i] have the same displacement. nodes: count. partners: count. */
 BRS_API brs_status brs_scene_add_tied(brs_scene* scene, const char* name, const int32_t* nodes,
                                       const int32_t* partners, int64_t count, int32_t* id);
-/* Springs to the rest position. stiffness: mN/mm, one per node, or one for all
- * (stiffness_count 1). SIZE_MISMATCH. */
+/* Springs to the rest position. nodes: count. stiffness: stiffness_count, mN/mm, one per node, or one
+ * for all. SIZE_MISMATCH. */
 BRS_API brs_status brs_scene_add_support(brs_scene* scene, const char* name, const int32_t* nodes,
                                          int64_t count, const double* stiffness,
                                          int64_t stiffness_count, int32_t* id);
 /* Nodes stay on the positive (side 1) or negative (side -1) side of the surface, without friction.
- * offsets: mm kept from it, one per node, or one for all (offset_count 1), or none (0). A node's own
- * distance at rest, brs_surface_distance(), makes it touch from the beginning. SIZE_MISMATCH. */
+ * nodes: count. offsets: offset_count, mm kept from it, one per node, or one for all, or none. A node's
+ * own distance at rest, brs_surface_distance(), makes it touch from the beginning. SIZE_MISMATCH. */
 BRS_API brs_status brs_scene_add_obstacle(brs_scene* scene, const char* name, const int32_t* nodes,
                                           int64_t count, brs_surface* surface, int32_t side,
                                           const double* offsets, int64_t offset_count, int32_t* id);
-/* nodes[i] and partners[i] may part and slide, not pass through each other. normals: count x 3,
- * unit length, from partner to node. */
+/* nodes[i] and partners[i] may part and slide, not pass through each other. nodes: count.
+ * partners: count. normals: count x 3, of unit length, from partner to node. */
 BRS_API brs_status brs_scene_add_opposing(brs_scene* scene, const char* name, const int32_t* nodes,
                                           const int32_t* partners, const double* normals,
                                           int64_t count, int32_t* id);
+
+/* on: non-zero enables the group in steppers made from now on, 0 disables it. */
+BRS_API brs_status brs_scene_set_enabled(brs_scene* scene, int32_t id, int32_t on);
+BRS_API brs_status brs_scene_remove_constraint(brs_scene* scene, int32_t id);
+
+/* ---- devices: cannula, electrode lead, wire ------------------------------------------------------
+ * A line of nodes, node 0 at the tip, running to the wire. Each node has a frame (d1, d2, d3): d1
+ * along the line away from the tip, d2 and d3 across. Arc lengths count from the tip. */
+
+typedef struct brs_device brs_device;
+
+/* Columns of a cross-section. */
+enum {
+  BRS_SECTION_AXIAL = 0,        /* EA, mN */
+  BRS_SECTION_BENDING_2 = 1,    /* EI for bending in the plane (d1, d2), mN mm^2 */
+  BRS_SECTION_BENDING_3 = 2,    /* EI for bending in the plane (d1, d3), mN mm^2 */
+  BRS_SECTION_TORSION = 3,      /* GJ, mN mm^2 */
+  BRS_SECTION_RADIUS = 4,       /* outer radius, mm */
+  BRS_SECTION_SHEAR = 5,        /* shear factor * GA, mN; infinite: no shear */
+  BRS_SECTION_LINE_DENSITY = 6, /* kg/mm, >= 0 */
+  BRS_SECTION_COLUMNS = 7
+};
+
+/* Round tube (inner diameter 0: a rod) of one material. Diameters in mm, young in kPa, density in
+ * kg/mm^3. section: 7. INVALID_ARGUMENT. */
+BRS_API brs_status brs_section_tube(brs_context* context, double outer_diameter,
+                                    double inner_diameter, double young, double poisson,
+                                    double density, double* section);
+/* Round device known by its bending stiffness (mN mm^2). section: 7. INVALID_ARGUMENT. */
+BRS_API brs_status brs_section_rod(brs_context* context, double diameter, double bending,
+                                   double poisson, double density, double* section);
+
+/* nodes: node_count x 3, mm, the rest shape. sections: section_count x 7, one for all or one per
+ * element. contacts: contact_count x 2, mm, arc lengths of begin and end, or none. frames:
+ * frame_count x 9, the vectors d1, d2, d3 of each node, or none: d1 tangent to the polyline. EMPTY,
+ * SIZE_MISMATCH, NOT_FINITE, DEGENERATE_ELEMENT, INVALID_ARGUMENT, SIZE. */
+BRS_API brs_status brs_device_create(brs_context* context, const char* name, const double* nodes,
+                                     int64_t node_count, const double* sections,
+                                     int64_t section_count, const double* contacts,
+                                     int64_t contact_count, const double* frames,
+                                     int64_t frame_count, brs_device** device);
+
+typedef struct brs_device_options {
+  int64_t struct_size;
+  double element_size; /* mm, 2; elements are no longer than this */
+  double bending;      /* EI, mN mm^2; 0: the table's */
+  double density;      /* kg/mm^3 of the full cross-section; 0: massless */
+} brs_device_options;
+
+BRS_API brs_status brs_device_options_init(brs_device_options* options, int64_t struct_size);
+/* A straight device of the table, `length` mm long from the tip to the end of the wire. options: NULL
+ * for the defaults. INVALID_ARGUMENT names the known ones. */
+BRS_API brs_status brs_device_create_named(brs_context* context, const char* name, double length,
+                                           const brs_device_options* options, brs_device** device);
+BRS_API brs_status brs_device_destroy(brs_device* device);
+
+typedef struct brs_device_entry {
+  int64_t struct_size;
+  const char* name;
+  const char* description; /* with the sources of the numbers */
+  double outer_diameter;   /* mm */
+  double tip;              /* mm from the tip to the first contact */
+  int64_t contact_count;
+  double contact_length, contact_gap;              /* mm */
+  double bending, bending_lowest, bending_highest; /* EI, mN mm^2: default and range */
+} brs_device_entry;
+
+BRS_API brs_status brs_device_entry_init(brs_device_entry* entry, int64_t struct_size);
+/* Entry `index` of the table of devices; its texts are valid for ever. INDEX_OUT_OF_RANGE beyond the
+ * last one, STRUCT_SIZE. */
+BRS_API brs_status brs_device_table(brs_context* context, int32_t index, brs_device_entry* entry);
+
+typedef struct brs_device_info {
+  int64_t struct_size;
+  const char* name;
+  double length; /* mm */
+  int64_t node_count, contact_count;
+  const double* nodes;  /* node_count x 3, mm, at rest */
+  const double* arcs;   /* node_count, mm */
+  const double* frames; /* node_count x 9: d1, d2, d3 */
+} brs_device_info;
+
+BRS_API brs_status brs_device_info_init(brs_device_info* info, int64_t struct_size);
+/* Its arrays are valid as long as the device. STRUCT_SIZE. */
+BRS_API brs_status brs_device_describe(brs_device* device, brs_device_info* info);
 
 /* ---- stepper: the state, and the solves that change it ------------------------------------------- */
 
@@ -267,10 +390,12 @@ typedef struct brs_stepper_options {
   int64_t struct_size;
   double residual_tolerance;        /* 1e-8, relative to the largest of the force norms */
   double complementarity_tolerance; /* 1e-8, relative */
-  double correction_tolerance;      /* 1e-10, last correction relative to the mesh diameter */
+  double correction_tolerance;      /* 4e-11, last correction relative to the mesh diameter */
   int64_t max_iterations;           /* 60, Newton iterations per load step */
   double smallest_load_step;        /* 1/256; below it: no equilibrium */
   double initial_penetration;       /* 1e-6, accepted at the start, relative to the diameter */
+  int64_t threads;                  /* 0: as brs_context_set_threads() says, 1 without */
+  double time_limit;                /* s from the begin of a solve, infinite; then BRS_CANCELLED */
 } brs_stepper_options;
 
 BRS_API brs_status brs_stepper_options_init(brs_stepper_options* options, int64_t struct_size);
@@ -284,7 +409,7 @@ BRS_API brs_status brs_stepper_destroy(brs_stepper* stepper);
 
 /* Settings, taken up by the next solve. */
 
-/* gravity: 3 numbers, mm/s^2. NOT_FINITE. */
+/* gravity: 3, mm/s^2. NOT_FINITE. */
 BRS_API brs_status brs_stepper_set_gravity(brs_stepper* stepper, const double* gravity);
 /* on: non-zero enables the constraints of this id, 0 disables them. INVALID_ARGUMENT. */
 BRS_API brs_status brs_stepper_set_enabled(brs_stepper* stepper, int32_t id, int32_t on);
@@ -302,6 +427,55 @@ enum {
 BRS_API brs_status brs_stepper_set_csf(brs_stepper* stepper, int32_t compartment, int32_t law,
                                        double amount);
 
+/* Rayleigh damping of brs_stepper_step(): alpha (1/s) times mass, beta (s) times stiffness.
+ * NOT_FINITE, INVALID_ARGUMENT. */
+BRS_API brs_status brs_stepper_set_damping(brs_stepper* stepper, double alpha, double beta);
+/* Says what solve_static() would refuse under the present settings; changes nothing. */
+BRS_API brs_status brs_stepper_check_settings(brs_stepper* stepper);
+
+/* Devices in tissue. Each call takes effect at once (nothing moves) and is balanced by the next solve;
+ * while a solve is begun, those that change something are refused with INVALID_ARGUMENT, as is an id
+ * that is not there. */
+
+/* What holds a device; arc lengths from its tip, mm. */
+typedef struct brs_hold {
+  int64_t struct_size;
+  double rigid_from; /* from here to the wire end it stays where it was put; infinite: nowhere */
+  double anchor;     /* here the wire is fixed to the skull; infinite: nowhere */
+  double slack;      /* mm, 0; the wire may slide this far along its placement, either way */
+  int64_t clamped;   /* 0; 1: the wire may not turn at its anchor */
+} brs_hold;
+
+BRS_API brs_status brs_hold_init(brs_hold* hold, int64_t struct_size);
+
+typedef struct brs_track_options {
+  int64_t struct_size;
+  double shear_bound;   /* kPa, 0; friction along the device */
+  double tip_bound;     /* mN, 0; friction at the deepest point besides */
+  double least_spacing; /* mm, 1; path points closer than this are one */
+} brs_track_options;
+
+BRS_API brs_status brs_track_options_init(brs_track_options* options, int64_t struct_size);
+
+/* Inserts a straight, unloaded device: the tissue that lies on its line now is held across it from
+ * then on and slides along it. tip: 3, mm. outward: 3, of unit length, from the tip to the wire.
+ * hold: what holds it. options: NULL for the defaults. id: of the inserted device.
+ * INVALID_ARGUMENT, STRUCT_SIZE. */
+BRS_API brs_status brs_stepper_insert(brs_stepper* stepper, brs_device* device, const double* tip,
+                                      const double* outward, const brs_hold* hold,
+                                      const brs_track_options* options, int32_t* id);
+/* Another device on the same track, its tip `advance` (mm, >= 0) deeper. INVALID_ARGUMENT,
+ * STRUCT_SIZE. */
+BRS_API brs_status brs_stepper_exchange(brs_stepper* stepper, int32_t id, brs_device* device,
+                                        const brs_hold* hold, double advance);
+/* Another hold, in the shape the device has now. INVALID_ARGUMENT, STRUCT_SIZE. */
+BRS_API brs_status brs_stepper_set_hold(brs_stepper* stepper, int32_t id, const brs_hold* hold);
+/* Other bounds of friction, kPa and mN; forces above them fall to them at once. INVALID_ARGUMENT. */
+BRS_API brs_status brs_stepper_set_friction(brs_stepper* stepper, int32_t id, double shear_bound,
+                                            double tip_bound);
+/* INVALID_ARGUMENT. */
+BRS_API brs_status brs_stepper_remove_device(brs_stepper* stepper, int32_t id);
+
 /* Certificate of a solve, measured on the state that it leaves behind. */
 typedef struct brs_solve_report {
   int64_t struct_size;
@@ -311,7 +485,7 @@ typedef struct brs_solve_report {
   double violation;         /* mm; largest negative gap */
   double last_correction;   /* mm; largest entry of the last Newton step */
   double smallest_jacobian; /* min det F over tets; > 0: nothing is inverted */
-  double energy;            /* uJ, stored in tissue and supports */
+  double energy;            /* uJ, stored in tissue, supports and devices */
   double load_factor;       /* part of the change of load that is in balance */
   int64_t load_steps;
   int64_t iterations; /* Newton */
@@ -319,6 +493,11 @@ typedef struct brs_solve_report {
   int64_t shifted_factorisations; /* those that needed a projected or shifted tangent */
   int64_t active_contacts;
   double seconds, seconds_assembly, seconds_factor, seconds_line_search;
+  double kinetic_energy;   /* uJ of tissue and devices; 0 in statics */
+  double tie_gap;          /* mm; largest gap across between a track and its device */
+  int64_t coupling_rows;   /* of tissue and devices */
+  int64_t coupling_rank;   /* of those whose force ended between its bounds */
+  int64_t coupling_unique; /* 1; 0: they are dependent, and only sums of their forces are unique */
 } brs_solve_report;
 
 BRS_API brs_status brs_solve_report_init(brs_solve_report* report, int64_t struct_size);
@@ -327,6 +506,44 @@ BRS_API brs_status brs_solve_report_init(brs_solve_report* report, int64_t struc
  * negative, or NULL. Remarks: NOT_CONVERGED, NO_EQUILIBRIUM, CANCELLED. RIGID_MODE, FLUID_VOLUME,
  * LINEAR_SOLVER, CALLBACK, STRUCT_SIZE. */
 BRS_API brs_status brs_stepper_solve_static(brs_stepper* stepper, brs_solve_report* report);
+
+/* One step of backward Euler over dt (s); dt > 0. report and statuses as above, INVALID_ARGUMENT. */
+BRS_API brs_status brs_stepper_step(brs_stepper* stepper, double dt, brs_solve_report* report);
+/* Velocity of the tissue nodes. velocity: count x 3, mm/s; as many rows as nodes. SIZE_MISMATCH,
+ * NOT_FINITE, SIZE. */
+BRS_API brs_status brs_stepper_set_velocity(brs_stepper* stepper, const double* velocity,
+                                            int64_t count);
+
+/* The phases of a solve: begin; linearise, solve and update, in this order, while the phase is BEGUN
+ * or UPDATED; accept when it is CONVERGED, reject when it is FAILED (or at any time). In between
+ * everything shows the state of before, save BRS_FIELD_ITERATE and the progress report; calls that
+ * change the state are refused. A call out of order is INVALID_ARGUMENT. */
+enum {
+  BRS_PHASE_IDLE = 0,       /* no solve is begun */
+  BRS_PHASE_BEGUN = 1,      /* ready for linearise */
+  BRS_PHASE_LINEARISED = 2, /* ready for solve */
+  BRS_PHASE_SOLVED = 3,     /* ready for update */
+  BRS_PHASE_UPDATED = 4,    /* ready for linearise again */
+  BRS_PHASE_CONVERGED = 5,  /* ready for accept */
+  BRS_PHASE_FAILED = 6      /* only reject is left */
+};
+
+/* Both refuse what the solve of the same name refuses; no solve is begun then. */
+BRS_API brs_status brs_stepper_begin_static(brs_stepper* stepper);
+BRS_API brs_status brs_stepper_begin_step(brs_stepper* stepper, double dt);
+BRS_API brs_status brs_stepper_linearise(brs_stepper* stepper);
+BRS_API brs_status brs_stepper_solve(brs_stepper* stepper);
+/* phase: UPDATED, CONVERGED or FAILED, or NULL. Remarks where it is FAILED: NOT_CONVERGED,
+ * NO_EQUILIBRIUM, CANCELLED. */
+BRS_API brs_status brs_stepper_update(brs_stepper* stepper, int32_t* phase);
+/* The iterate becomes the state. report: its certificate, or NULL. STRUCT_SIZE. */
+BRS_API brs_status brs_stepper_accept(brs_stepper* stepper, brs_solve_report* report);
+/* The state stays that of before the begin. */
+BRS_API brs_status brs_stepper_reject(brs_stepper* stepper);
+/* phase: the present one. */
+BRS_API brs_status brs_stepper_phase(brs_stepper* stepper, int32_t* phase);
+/* Report of the open solve, on its last iterate. STRUCT_SIZE. */
+BRS_API brs_status brs_stepper_progress_report(brs_stepper* stepper, brs_solve_report* report);
 
 /* Fields of the state, row-major. N nodes, M tets. */
 enum {
@@ -337,20 +554,24 @@ enum {
   BRS_FIELD_INTERNAL_FORCE = 4, /* N x 3, mN, of the material */
   BRS_FIELD_GRAVITY_FORCE = 5,  /* N x 3, mN, in full */
   BRS_FIELD_FLUID_FORCE = 6,    /* N x 3, mN, in full */
-  BRS_FIELD_EXTERNAL_FORCE = 7  /* N x 3, mN, the two without those of a balanced reference */
+  BRS_FIELD_EXTERNAL_FORCE = 7, /* N x 3, mN, the two without those of a balanced reference */
+  BRS_FIELD_VELOCITY = 8,       /* N x 3, mm/s; 0 after a static solve */
+  BRS_FIELD_ITERATE = 9         /* N x 3, mm; displacement of the solve that is begun */
 };
 
-/* A view of a field; that of the displacement is the state itself, without a copy. Valid until the
- * next solve, restore, view of the same field, or the end of the stepper. rows and columns may be
- * NULL. INVALID_ARGUMENT for an unknown field. */
+/* A view of a field; displacement, velocity and iterate are the stepper's own, without a copy. Valid
+ * until the next solve, phase, restore, view of the same field, or the end of the stepper.
+ * values: rows x columns. INVALID_ARGUMENT for an unknown field; rows and columns may be NULL. */
 BRS_API brs_status brs_stepper_field(brs_stepper* stepper, int32_t field, const double** values,
                                      int64_t* rows, int64_t* columns);
 
-/* Displacement (mm, count x 3) of the material that lies at the points (mm, count x 3) in the mesh
- * as given; and where the material now at the points lay in it. tets: count numbers of the tets
- * that hold the points, -1 outside, or NULL. values may be points. SIZE. Remark: OUTSIDE. */
+/* Displacement (mm) of the material that lies at the points in the mesh as given. points: count x 3,
+ * mm. values: count x 3; may be the same array. tets: count, the tets that hold the points, -1
+ * outside, or NULL. SIZE. Remark: OUTSIDE. */
 BRS_API brs_status brs_stepper_displacement_at(brs_stepper* stepper, const double* points,
                                                int64_t count, double* values, int32_t* tets);
+/* Where the material that is at the points now lay in the mesh as given (mm). points: count x 3, mm.
+ * values: count x 3; may be the same array. tets: count, or NULL. SIZE. Remark: OUTSIDE. */
 BRS_API brs_status brs_stepper_rest_points_of(brs_stepper* stepper, const double* points,
                                               int64_t count, double* values, int32_t* tets);
 
@@ -383,6 +604,30 @@ BRS_API brs_status brs_contact_state_init(brs_contact_state* state, int64_t stru
 /* Its arrays are valid until the same id is asked for again. INVALID_ARGUMENT, STRUCT_SIZE. */
 BRS_API brs_status brs_stepper_contact(brs_stepper* stepper, int32_t id, brs_contact_state* state);
 
+/* An inserted device. Forces act on the tissue. */
+typedef struct brs_device_state {
+  int64_t struct_size;
+  const char* name;
+  int64_t node_count, contact_count, path_count;
+  const double* nodes;           /* node_count x 3, mm; row 0 is the tip */
+  const double* frames;          /* node_count x 9: d1, d2, d3 */
+  const double* contact_centres; /* contact_count x 3, mm */
+  const double* path;            /* path_count x 3, mm: where the material of the track is now */
+  const double* path_arcs;       /* path_count, mm on the device; NaN where it does not reach */
+  const double* path_forces;     /* path_count x 3, mN */
+  double anchor_force[3];        /* mN, of skull and frame on the device */
+  double slide;                  /* mm; how far slack has let the wire out (+) or in (-) */
+  double bow, bow_arc;           /* mm; largest distance from its chord, and where */
+  double bow_direction[3];       /* unit; zero without bow */
+  double largest_tie_gap;        /* mm */
+} brs_device_state;
+
+BRS_API brs_status brs_device_state_init(brs_device_state* state, int64_t struct_size);
+/* Its arrays are valid until the same id is asked for again. INVALID_ARGUMENT, STRUCT_SIZE. */
+BRS_API brs_status brs_stepper_device(brs_stepper* stepper, int32_t id, brs_device_state* state);
+/* The device that was inserted under this id last, as a handle of its own. INVALID_ARGUMENT. */
+BRS_API brs_status brs_stepper_device_model(brs_stepper* stepper, int32_t id, brs_device** device);
+
 /* ---- snapshot: a copy of state and settings; restoring it brings back the same bits --------------- */
 
 typedef struct brs_snapshot brs_snapshot;
@@ -391,6 +636,24 @@ BRS_API brs_status brs_stepper_snapshot(brs_stepper* stepper, brs_snapshot** sna
 /* INVALID_ARGUMENT for a snapshot of another mesh. */
 BRS_API brs_status brs_stepper_restore(brs_stepper* stepper, brs_snapshot* snapshot);
 BRS_API brs_status brs_snapshot_destroy(brs_snapshot* snapshot);
+
+/* Snapshots and scenes as bytes, to be kept in files. They have a version and a checksum; bytes that
+ * were damaged, or written by a library of another version of the format, are refused with FILE.
+ * count: how many bytes there are; the first `capacity` are written. bytes: capacity. SIZE. */
+BRS_API brs_status brs_snapshot_bytes(brs_snapshot* snapshot, uint8_t* bytes, int64_t capacity,
+                                      int64_t* count);
+/* The snapshot that was written, for a stepper of the same scene: INVALID_ARGUMENT for another mesh
+ * or other constraints and compartments. bytes: count. FILE, SIZE. */
+BRS_API brs_status brs_stepper_read_snapshot(brs_stepper* stepper, const uint8_t* bytes,
+                                             int64_t count, brs_snapshot** snapshot);
+/* The scene of a stepper, its options, state and settings: all that a bug report needs. bytes:
+ * capacity. count: how many there are; the first `capacity` are written. SIZE. */
+BRS_API brs_status brs_stepper_record(brs_stepper* stepper, uint8_t* bytes, int64_t capacity,
+                                      int64_t* count);
+/* A stepper that goes on from what brs_stepper_record() wrote, with the same bits in the same build.
+ * bytes: count. FILE, SIZE. */
+BRS_API brs_status brs_stepper_replay(brs_context* context, const uint8_t* bytes, int64_t count,
+                                      brs_stepper** stepper);
 
 #ifdef __cplusplus
 }

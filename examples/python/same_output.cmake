@@ -1,0 +1,11 @@
+# Two programs print the same. cmake -DFIRST=... -DSECOND=... -P same_output.cmake
+foreach(program FIRST SECOND)
+  execute_process(COMMAND ${${program}} OUTPUT_VARIABLE ${program}_OUTPUT RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "${${program}} failed (${failed})")
+  endif()
+endforeach()
+if(NOT FIRST_OUTPUT MATCHES "state [0-9a-f]+\n$" OR NOT FIRST_OUTPUT STREQUAL SECOND_OUTPUT)
+  message(FATAL_ERROR "first:\n${FIRST_OUTPUT}\nsecond:\n${SECOND_OUTPUT}")
+endif()
+message(STATUS "${FIRST_OUTPUT}")

@@ -13,8 +13,23 @@ paper quotes; no parameter differs between the volumes. The shift of the STN sta
     "claims": ("The paper's claims, ingredient on and off", """40 mL of air on both sides. First shift: largest motion of a side's surface after the right craniotomy.
 Second: motion of the right STN as the right cannula leaves; beside it, as part of the first. Inverse:
 motion of the right STN at recovery. Bow y: component of the bow's direction forwards."""),
-    "sensitivity": ("Which choices decide", "One choice changed at a time."),
-    "movers": ("What moves a lead", "Default preset, 40 mL of air on both sides."),
+    "sensitivity": ("Which choices decide", """One choice changed at a time. The shift of the target is decided by the tether, the reference state, the
+hold of the brainstem, the gap and the elevation, and at large losses by stiffness; Poisson's ratio, law, friction, slack, lead and
+trajectory decide next to nothing of it. The density of the brain cancels where the image is in balance.
+D against the skull stays small in all of them at 22 and 62 mL on both sides: no single physical choice of
+the default preset brings it to the paper's 3.0 and 6.8 mm. In the preset of 2011 at its image's size, with
+all the air on one side, 62 mL do; the last panel shows on which of its choices that hangs."""),
+    "movers": ("What moves a lead", """Default preset, 40 mL of air on both sides; late: the part of the loss that comes while the cannula is in.
+
+- A wire that the skull holds keeps its tip where it is, whatever the friction: even a lead bonded to
+  tissue gains a tenth of a millimetre, by bending. The tissue comes back along it instead.
+- A wire free to slide at the burr hole follows the tissue under any friction at all, also of the tip
+  alone: D against the skull is then what the tissue itself comes back by along the track, no more. Without
+  friction nothing pulls it.
+- Neither friction, nor slack, nor a tip that has grown in, nor a softer lead, nor air that enters while the
+  cannula is in brings D to the 1 to 7 mm of the law at these volumes: the tissue at the target does not
+  come back by as much along the lead. What does (the preset of 2011 at its image's size with all the air on
+  one side) bends the lead by several millimetres first."""),
     "ablation": ("What a scene needs", """Default preset, 22 mL on both sides: at the end of testing on the right, and after recovery. Seconds
 are of this machine and depend on what runs beside; ratios mean more.
 

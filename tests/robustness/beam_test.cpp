@@ -68,7 +68,7 @@ TEST(BeamLimits, B4_devices_without_length) {
 }
 
 TEST(BeamLimits, B5_no_stiffness_is_refused_and_steel_balances_tissue) {
-  for (double BeamSection::* const quantity :
+  for (double BeamSection::*const quantity :
        {&BeamSection::axial, &BeamSection::bending_2, &BeamSection::bending_3,
         &BeamSection::torsion, &BeamSection::radius}) {
     for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {

@@ -127,8 +127,8 @@ TEST(ContactLimits, K6_rows_of_very_different_size) {
   M.diagonal().setOnes();
   const VectorXd q = VectorXd::Constant(n, -1.0);
   const McpSolution plain = one_sided(M, q);
-  const McpSolution scaled = one_sided(scale.asDiagonal() * M * scale.asDiagonal(),
-                                       scale.asDiagonal() * q);
+  const McpSolution scaled =
+      one_sided(scale.asDiagonal() * M * scale.asDiagonal(), scale.asDiagonal() * q);
   ASSERT_EQ(scaled.report.status, McpStatus::solved);
   for (Eigen::Index i = 0; i < n; ++i) {  // every row to the same relative accuracy
     EXPECT_NEAR(scaled.z[i] * scale[i], plain.z[i], 1e-9 * plain.z[i]) << i;
@@ -151,9 +151,8 @@ TEST(ContactLimits, K7_a_sheet_without_thickness_keeps_both_sides_apart) {
     const Surface falx = Surface::sheet(sheet.points, sheet.triangles);
     const double normal = falx.sample(Vec3(1, 0, 0)).gradient.x();
     const auto side = [&](double sign) {
-      return nodes_where(scene.mesh, [sign](const Vec3& x) {
-        return std::abs(x.x() - sign * 0.2) < 1e-9;
-      });
+      return nodes_where(scene.mesh,
+                         [sign](const Vec3& x) { return std::abs(x.x() - sign * 0.2) < 1e-9; });
     };
     scene.constraints.obstacle("right", side(1.0), falx, normal > 0 ? 1.0 : -1.0);
     scene.constraints.obstacle("left", side(-1.0), falx, normal > 0 ? -1.0 : 1.0);

@@ -34,7 +34,8 @@ TEST(Determinism, H1_scenes_in_threads_of_their_own_do_not_disturb_each_other) {
   std::vector<std::thread> hosts;
   for (int host = 0; host < 2; ++host) {
     hosts.emplace_back([&found, host] {
-      for (std::uint64_t& hash : found[host]) hash = run_procedure(3 + host, on_threads(1 + host)).hash;
+      for (std::uint64_t& hash : found[host])
+        hash = run_procedure(3 + host, on_threads(1 + host)).hash;
     });
   }
   for (std::thread& host : hosts) host.join();
@@ -88,16 +89,13 @@ TEST(Determinism, H7_cancelled_from_another_thread) {
 TEST(Signature, TheProcedureTakesAsManyIterationsAsRecorded) {
   const int recorded[][3] = {
       // load steps, iterations, factorisations
-      {1, 5, 5},  // loss
-      {1, 5, 5},  // cannula in, more lost
-      {1, 2, 1},  // lead in its place
-      {1, 8, 5},  // held at its wire
-      {1, 7, 9},  // tilted
-      {1, 7, 4},  // in time
-      {1, 5, 2},
-      {1, 5, 2},
-      {1, 5, 1},
-      {1, 6, 6},  // restored
+      {1, 5, 5},                                   // loss
+      {1, 5, 5},                                   // cannula in, more lost
+      {1, 2, 1},                                   // lead in its place
+      {1, 8, 5},                                   // held at its wire
+      {1, 7, 9},                                   // tilted
+      {1, 7, 4},                                   // in time
+      {1, 5, 2}, {1, 5, 2}, {1, 5, 1}, {1, 6, 6},  // restored
   };
   const Procedure procedure = run_procedure();
   ASSERT_EQ(procedure.stages.size(), std::size(recorded));

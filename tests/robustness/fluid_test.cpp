@@ -13,9 +13,10 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // A ball of 30 mm in a cavity of 40 mm, held at its middle; the level is set to `head`.
 Scene ball_scene(int cells = 4) {
   const BallInCavity s(30.0, cells);
-  Scene scene{s.mesh, {{0, Material(Law::corotational, 6.0, 0.45, tissue_density)}}, gravity_down,
-              s.csf};
-  scene.constraints.fix("middle", nodes_where(s.mesh, [](const Vec3& x) { return x.norm() < 16.0; }));
+  Scene scene{
+      s.mesh, {{0, Material(Law::corotational, 6.0, 0.45, tissue_density)}}, gravity_down, s.csf};
+  scene.constraints.fix("middle",
+                        nodes_where(s.mesh, [](const Vec3& x) { return x.norm() < 16.0; }));
   return scene;
 }
 

@@ -78,8 +78,8 @@ TEST(MaterialLimits, A6_a_block_pressed_too_far_is_never_a_success_with_inverted
   int failed = 0;
   for (const int cells : {2, 4}) {
     for (const double factor : {2.0, 4.0, 8.0, 16.0}) {
-      Stepper stepper(cube_on_base(Law::st_venant_kirchhoff,
-                                   {0, 0, -factor * standard_gravity}, cells, 0.3));
+      Stepper stepper(
+          cube_on_base(Law::st_venant_kirchhoff, {0, 0, -factor * standard_gravity}, cells, 0.3));
       const SolveReport report = stepper.solve_static();
       expect_converged_or_failed(report);
       if (report.converged()) continue;

@@ -105,9 +105,8 @@ TEST(MeshInput, M7_a_body_that_nothing_holds_has_no_rest_but_moves_in_time) {
   Scene scene = cube_on_base(Law::corotational);
   scene.mesh = make_mesh(joined(box(), moved(box(), {30, 0, 0})));
   scene.constraints = {};
-  scene.constraints.fix("base", nodes_where(scene.mesh, [](const Vec3& x) {
-                          return x.z() == 0.0 && x.x() < 25.0;
-                        }));
+  scene.constraints.fix(
+      "base", nodes_where(scene.mesh, [](const Vec3& x) { return x.z() == 0.0 && x.x() < 25.0; }));
   Stepper stepper(scene);
   const ShownState before(stepper);
   expect_error(ErrorCode::rigid_mode, {"body 1", "6 rigid"}, [&] { stepper.solve_static(); });
@@ -134,7 +133,8 @@ TEST(MeshInput, M9_coincident_nodes_are_two_bodies) {
   EXPECT_EQ(scene.mesh.component_count(), 2);
   EXPECT_EQ(scene.mesh.surface().rows(), 2 * mesh_of(box()).surface().rows());
   scene.constraints = {};
-  scene.constraints.fix("side", nodes_where(scene.mesh, [](const Vec3& x) { return x.x() == 0.0; }));
+  scene.constraints.fix("side",
+                        nodes_where(scene.mesh, [](const Vec3& x) { return x.x() == 0.0; }));
   expect_error(ErrorCode::rigid_mode, {"body 1"}, [&] { Stepper(scene).solve_static(); });
 }
 
@@ -198,8 +198,8 @@ TEST(MeshInput, M12_no_absolute_size_is_hidden) {
     shape.points *= length;
     scene.mesh = make_mesh(shape);
     const double young = 6.0 * force;
-    scene.materials = {{0, Material(Law::stable_neo_hookean, young, 0.45,
-                                    tissue_density * force / length)}};
+    scene.materials = {
+        {0, Material(Law::stable_neo_hookean, young, 0.45, tissue_density * force / length)}};
     Stepper stepper(scene);
     expect_converged(stepper.solve_static());
     return Points(stepper.displacement() / length);

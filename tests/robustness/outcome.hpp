@@ -50,9 +50,8 @@ struct ShownState {
     }
   }
   bool operator==(const ShownState& other) const {
-    return same_bits(u, other.u) && same_bits(v, other.v) &&
-           same_bits(internal, other.internal) && same_bits(external, other.external) &&
-           contact == other.contact;
+    return same_bits(u, other.u) && same_bits(v, other.v) && same_bits(internal, other.internal) &&
+           same_bits(external, other.external) && contact == other.contact;
   }
 };
 

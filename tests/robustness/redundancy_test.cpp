@@ -21,10 +21,11 @@ TEST(RedundantRows, R1_the_same_node_held_twice) {
 
 TEST(RedundantRows, R1_ties_in_a_ring) {
   Scene scene = cube_on_base(Law::corotational);
-  scene.mesh = make_mesh(joined(make_box({20, 20, 20}, 2, 2, 2),
-                                moved(make_box({20, 20, 20}, 2, 2, 2), {20, 0, 0})));
+  scene.mesh = make_mesh(
+      joined(make_box({20, 20, 20}, 2, 2, 2), moved(make_box({20, 20, 20}, 2, 2, 2), {20, 0, 0})));
   scene.constraints = {};
-  scene.constraints.fix("base", nodes_where(scene.mesh, [](const Vec3& x) { return x.x() == 0.0; }));
+  scene.constraints.fix("base",
+                        nodes_where(scene.mesh, [](const Vec3& x) { return x.x() == 0.0; }));
   const auto [left, right] = seam(scene.mesh, 27);
   scene.constraints.tie("there", left, right);
   Stepper once(scene);
@@ -83,9 +84,9 @@ TEST(RedundantRows, R5_a_closed_loop_of_rows) {
     TrackOptions track;
     track.shear_bound = 0.01;
     track.tip_bound = 1.0;
-    const DeviceId id = stepper.insert(lead(), {lead_tip, lead_outward},
-                                       {std::numeric_limits<double>::infinity(), wire, clamped, 0.0},
-                                       track);
+    const DeviceId id =
+        stepper.insert(lead(), {lead_tip, lead_outward},
+                       {std::numeric_limits<double>::infinity(), wire, clamped, 0.0}, track);
     stepper.set_gravity(leaning(0.02));
     const SolveReport report = stepper.solve_static();
     expect_converged(report);
@@ -99,8 +100,9 @@ TEST(RedundantRows, R5_a_closed_loop_of_rows) {
 TEST(RedundantRows, R6_rows_that_hold_nothing_are_refused) {
   ConstraintSet set;
   expect_error(ErrorCode::empty, {"'none'"}, [&] { set.fix("none", {}); });
-  expect_error(ErrorCode::invalid_argument, {"'none'"},
-               [&] { set.fix("none", {0}, {false, false, false}); });
+  expect_error(ErrorCode::invalid_argument, {"'none'"}, [&] {
+    set.fix("none", {0}, {false, false, false});
+  });
   EXPECT_TRUE(set.groups().empty());
   Stepper stepper(leaning_block());
   expect_error(ErrorCode::invalid_argument, {"not in tissue"}, [&] {

@@ -3,6 +3,7 @@
 
 #include "brainshift/error.hpp"
 #include "stepper/bytes.hpp"
+#include "support/elements.hpp"
 #include "support/expect_error.hpp"
 #include "support/scenes.hpp"
 
@@ -36,6 +37,7 @@ Stepper busy_stepper() {
   EXPECT_TRUE(s.solve_static().converged());
   TrackOptions track;
   track.shear_bound = 0.05;
+  track.local_give = true;
   Hold hold;
   hold.anchor = 25.0;
   hold.slack = 1.0;
@@ -134,6 +136,17 @@ TEST(Bytes, OfAnotherSceneKindOrVersionAreRefusedByName) {
   bytes[16] = 99;
   expect_error(ErrorCode::file, {"version 99"}, [&] { a.read_snapshot(bytes); });
   expect_error(ErrorCode::file, {"do not begin"}, [&] { a.read_snapshot({}); });
+}
+
+TEST(Bytes, KeepTheElementsOfAScene) {
+  for (test::Element element : test::all_elements) {
+    Stepper a(test::with_element(test::busy_scene(2, 0.3), element));
+    a.csf().set_lost_volume(0, 2000.0);
+    ASSERT_TRUE(a.solve_static().converged()) << test::name_of(element);
+    Stepper b = Stepper::replay(a.record());
+    EXPECT_EQ(b.mesh().is_quadratic(), element == test::Element::quadratic);
+    expect_same_future(a, b);
+  }
 }
 
 }  // namespace

@@ -55,7 +55,9 @@ void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
 void __libc_free(void*);
 
-void* malloc(std::size_t size) { return fails_now(__builtin_return_address(0)) ? nullptr : counted(__libc_malloc(size)); }
+void* malloc(std::size_t size) {
+  return fails_now(__builtin_return_address(0)) ? nullptr : counted(__libc_malloc(size));
+}
 void* calloc(std::size_t count, std::size_t size) {
   return fails_now(__builtin_return_address(0)) ? nullptr : counted(__libc_calloc(count, size));
 }
@@ -67,7 +69,8 @@ void* realloc(void* memory, std::size_t size) {
   return result;
 }
 void* memalign(std::size_t alignment, std::size_t size) {
-  return fails_now(__builtin_return_address(0)) ? nullptr : counted(__libc_memalign(alignment, size));
+  return fails_now(__builtin_return_address(0)) ? nullptr
+                                                : counted(__libc_memalign(alignment, size));
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) { return memalign(alignment, size); }
 int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {

@@ -6,8 +6,8 @@
 namespace brainshift::test {
 
 enum class Failing {
-  once,   // allocation k alone
-  onwards // k and all that follow
+  once,    // allocation k alone
+  onwards  // k and all that follow
 };
 
 // Counts allocations of the process from now on and lets number k (0, 1, ...) fail.

@@ -106,9 +106,8 @@ TEST_F(OutOfMemory, Devices) {
   fail_each_allocation("insert", [](World& w) {
     w.stepper.insert(device_of("lead"), {Vec3(8.1, 9.3, 11.2), Vec3::UnitZ()}, held_at_wire());
   });
-  fail_each_allocation("exchange", [](World& w) {
-    w.stepper.exchange(w.id, device_of("lead"), held_whole(), 1.0);
-  });
+  fail_each_allocation(
+      "exchange", [](World& w) { w.stepper.exchange(w.id, device_of("lead"), held_whole(), 1.0); });
   fail_each_allocation("set_hold", [](World& w) { w.stepper.set_hold(w.id, held_at_wire()); });
   fail_each_allocation("set_friction", [](World& w) { w.stepper.set_friction(w.id, 1e-4, 0.1); });
   fail_each_allocation("remove", [](World& w) { w.stepper.remove(w.id); });
@@ -120,9 +119,8 @@ TEST_F(OutOfMemory, SettingsAndSnapshots) {
   fail_each_allocation("snapshot", [](World& w) { w.stepper.snapshot(); });
   fail_each_allocation("disable", [](World& w) { w.stepper.disable(1); });
   fail_each_allocation("set_gravity", [](World& w) { w.stepper.set_gravity({0, 1000, -9000}); });
-  fail_each_allocation("set_velocity", [](World& w) {
-    w.stepper.set_velocity(Points::Zero(27, 3));
-  });
+  fail_each_allocation("set_velocity",
+                       [](World& w) { w.stepper.set_velocity(Points::Zero(27, 3)); });
   fail_each_allocation("check_settings", [](World& w) { w.stepper.check_settings(); });
   fail_each_allocation("points", [](World& w) {
     w.stepper.displacement_at(Points::Constant(3, 3, 11.0));
@@ -157,8 +155,7 @@ TEST_F(OutOfMemory, ValuesAreMadeOrNotMade) {
   fail_each_allocation_of("Mesh::locate", [&] { make_mesh(box).locate(box.points); });
   SurfaceOptions coarse;
   coarse.grid_spacing = 10.0;
-  fail_each_allocation_of("Surface",
-                          [&] { Surface::cavity(wall.points, wall.triangles, coarse); });
+  fail_each_allocation_of("Surface", [&] { Surface::cavity(wall.points, wall.triangles, coarse); });
   fail_each_allocation_of("Csf", [&] {
     Csf(fluid_density, FluidModel::separate,
         {make_compartment("all", wall, all_faces(scene.mesh))});
@@ -178,8 +175,10 @@ TEST_F(OutOfMemory, AConstraintIsAddedOrNot) {
     set.fix("first", {1});
     bool failed = false;
     const bool through = runs_through(
-        [&] { set.fix("a name that is too long for the string itself", {2, 3, 4}); }, k,
-        Failing::once, failed);
+        [&] {
+          set.fix("a name that is too long for the string itself", {2, 3, 4});
+        },
+        k, Failing::once, failed);
     EXPECT_EQ(set.groups().size(), through ? 2u : 1u);
     EXPECT_EQ(set.fix("next", {5}), through ? 2 : 1) << "an id was lost";
     if (!failed) break;

@@ -85,8 +85,8 @@ TEST(Files, O2_counts_that_lie_cost_no_memory) {
     const std::string number = count;
     lies.push_back(replaced(text, "NumberOfPoints=\"5\"", "NumberOfPoints=\"" + number + "\""));
     lies.push_back(replaced(text, "NumberOfCells=\"2\"", "NumberOfCells=\"" + number + "\""));
-    lies.push_back(replaced(text, "NumberOfComponents=\"3\"",
-                            "NumberOfComponents=\"" + number + "1\""));
+    lies.push_back(
+        replaced(text, "NumberOfComponents=\"3\"", "NumberOfComponents=\"" + number + "1\""));
   }
   for (const std::string& lie : lies) {
     write_text(scratch / "lie.vtu", lie);

@@ -20,7 +20,8 @@ Grid noisy_grid() {
     const int exponent = int(random() % 600) - 300;
     grid.node_fields[0].values.data()[i] = std::ldexp(mantissa(random), exponent);
   }
-  grid.points(4, 2) = 9.9999999999999978e-05;  // cut to 20 characters elsewhere, and unreadable there
+  grid.points(4, 2) =
+      9.9999999999999978e-05;  // cut to 20 characters elsewhere, and unreadable there
   return grid;
 }
 
@@ -92,7 +93,8 @@ TEST(Files, O6_a_full_disk) {
 
 TEST(Files, O9_paths_of_every_kind) {
   const Scratch scratch;
-  for (const std::string name : {"with a space.vtu", "\xC3\xA4\xE2\x82\xAC.vtu", "a'b\"c&<d>.vtu"}) {
+  for (const std::string name :
+       {"with a space.vtu", "\xC3\xA4\xE2\x82\xAC.vtu", "a'b\"c&<d>.vtu"}) {
     write_vtu(scratch / name, two_tets());
     expect_same(read_vtu(scratch / name), two_tets());
   }

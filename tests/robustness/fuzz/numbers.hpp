@@ -15,9 +15,11 @@ class Numbers {
   // Most are multiples of 1/16 within 8 of zero.
   double number() {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    constexpr double special[] = {0.0,   -0.0,   1e-300, -1e-160, 1e150, 1e308,    5e-324, 1e-16,
-                                  1e-12, 1.0 / 3.0, 1e-6,   1e6,     1e12,  -infinity, infinity,
-                                  std::numeric_limits<double>::quiet_NaN()};
+    constexpr double special[] = {
+        0.0,   -0.0,      1e-300,   -1e-160,
+        1e150, 1e308,     5e-324,   1e-16,
+        1e-12, 1.0 / 3.0, 1e-6,     1e6,
+        1e12,  -infinity, infinity, std::numeric_limits<double>::quiet_NaN()};
     const int b = byte();
     return b < 16 ? special[b] : (b - 136) / 16.0;
   }

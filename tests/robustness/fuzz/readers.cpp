@@ -30,8 +30,7 @@ void read_bytes(const std::uint8_t* data, std::size_t size, const Read& read) {
     check_cells(grid.lines, grid.points.rows());
     check_cells(grid.triangles, grid.points.rows());
     check_fields(grid.node_fields, grid.points.rows());
-    check_fields(grid.cell_fields,
-                 grid.tets.rows() + grid.lines.rows() + grid.triangles.rows());
+    check_fields(grid.cell_fields, grid.tets.rows() + grid.lines.rows() + grid.triangles.rows());
   } catch (const Error& error) {
     if (error.code() != ErrorCode::file) std::abort();
   }

@@ -9,7 +9,8 @@ namespace brainshift::test {
 
 void fuzz_vtu(const std::uint8_t* data, std::size_t size);  // as the content of a file
 void fuzz_vtp(const std::uint8_t* data, std::size_t size);
-void fuzz_mcp(const std::uint8_t* data, std::size_t size);   // as a complementarity problem
-void fuzz_mesh(const std::uint8_t* data, std::size_t size);  // as nodes and tets, and a solve on them
+void fuzz_mcp(const std::uint8_t* data, std::size_t size);  // as a complementarity problem
+void fuzz_mesh(const std::uint8_t* data,
+               std::size_t size);  // as nodes and tets, and a solve on them
 
 }  // namespace brainshift::test

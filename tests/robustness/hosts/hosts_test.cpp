@@ -76,8 +76,8 @@ TEST(Hosts, NothingIsPrinted) {
 
 TEST(Hosts, NoFileIsLeftInTheWorkingFolder) {
   const auto here = std::filesystem::current_path();
-  const auto empty = std::filesystem::temp_directory_path() /
-                     ("brainshift_empty_" + std::to_string(getpid()));
+  const auto empty =
+      std::filesystem::temp_directory_path() / ("brainshift_empty_" + std::to_string(getpid()));
   std::filesystem::create_directory(empty);
   std::filesystem::current_path(empty);
   run_everything();
@@ -94,7 +94,8 @@ TEST(Hosts, SignalHandlersAndRandomNumbersStayTheHosts) {
   const int expected[] = {rand(), rand(), rand(), rand()};
   srand(5);
   EXPECT_EQ(rand(), expected[0]);
-  for (const int signal : {SIGABRT, SIGTERM, SIGINT, SIGSEGV, SIGFPE}) std::signal(signal, my_handler);
+  for (const int signal : {SIGABRT, SIGTERM, SIGINT, SIGSEGV, SIGFPE})
+    std::signal(signal, my_handler);
   run_everything();
   EXPECT_EQ(rand(), expected[1]);
   solved(4);
@@ -156,7 +157,9 @@ TEST(Hosts, P12_floating_point_traps) {
                 return !testing::Test::HasFailure();
               }),
               0)
-        << (trap == FE_DIVBYZERO ? "division by zero" : trap == FE_INVALID ? "invalid" : "overflow");
+        << (trap == FE_DIVBYZERO ? "division by zero"
+            : trap == FE_INVALID ? "invalid"
+                                 : "overflow");
   }
 }
 

@@ -69,8 +69,8 @@ TEST(Soak, AThousandTrajectoriesFromOneState) {
   long early = 0;
   for (int i = 0; i < 1000; ++i) {
     const double x = 8.0 + 14.0 * (i % 10) / 10.0;
-    const DeviceId id = stepper.insert(make_device("3389", 40.0), {Vec3(x, 15.7, 9.1), Vec3::UnitZ()},
-                                       {0.0, 38.0});
+    const DeviceId id =
+        stepper.insert(make_device("3389", 40.0), {Vec3(x, 15.7, 9.1), Vec3::UnitZ()}, {0.0, 38.0});
     stepper.csf().set_lost_volume(0, 6000.0);
     ASSERT_TRUE(stepper.solve_static().converged()) << i;
     if (i == 0) first = stepper.displacement();

@@ -242,14 +242,16 @@ def ablation(runner):
 def mesh(runner, heads):
     """The same head in three meshes, at equal volumes of air."""
     headlines = [("default", 22), ("default", 62), ("paper-2011, MNI size", 22)]
-    cases = {(preset, volume, name): [*PRESETS[preset], *both(volume), "--head", str(folder)]
-             for name, folder in heads.items() for preset, volume in headlines}
+    # The preset of 2011 takes too long on the finest.
+    meshes = {"default": list(heads), "paper-2011, MNI size": list(heads)[:2]}
+    cases = {(preset, volume, name): [*PRESETS[preset], *both(volume), "--head", str(heads[name])]
+             for preset, volume in headlines for name in meshes[preset]}
     runs = runner.all(dict(reversed(cases.items())))   # the longest first
     rows = [["preset", "asked mL", "head", "nodes", *HEADLINES]]
     for preset, volume in headlines:
-        here = [runs[preset, volume, name] for name in heads]
+        here = [runs[preset, volume, name] for name in meshes[preset]]
         found = [headline(run) for run in here]
-        for name, run, row in zip(heads, here, found):
+        for name, run, row in zip(meshes[preset], here, found):
             nodes = str(run.data["head"]["nodes"]) if run.stages else ""
             rows.append([preset, f"{volume}", name, nodes, *row])
         if all(run.converged for run in here):

@@ -39,7 +39,10 @@ void check_wetted_once(const Csf& csf, Index face_count) {
   }
 }
 
-std::string ml(double mm3) { return text(mm3 / mm3_per_ml) + " mL"; }
+// To a thousandth.
+std::string ml(double mm3) {
+  return text(std::round(1e3 * mm3 / mm3_per_ml) / 1e3) + " mL";
+}
 
 }  // namespace
 

@@ -145,7 +145,12 @@ TEST(Bytes, KeepTheElementsOfAScene) {
     ASSERT_TRUE(a.solve_static().converged()) << test::name_of(element);
     Stepper b = Stepper::replay(a.record());
     EXPECT_EQ(b.mesh().is_quadratic(), element == test::Element::quadratic);
-    expect_same_future(a, b);
+    EXPECT_TRUE(same_bits(a.displacement(), b.displacement()));
+    for (Stepper* s : {&a, &b}) {
+      s->csf().set_lost_volume(0, 5000.0);
+      ASSERT_TRUE(s->solve_static().converged());
+    }
+    EXPECT_TRUE(same_bits(a.displacement(), b.displacement())) << test::name_of(element);
   }
 }
 

@@ -126,7 +126,7 @@ int main(int argc, char** argv) try {
     for (const Result& r : results) print(r, reference, poisson);
     if (results.size() > 3) {
       Result extrapolated;
-      extrapolated.element = "linear, extrapolated";
+      extrapolated.element = "linear extrapolated";
       extrapolated.refinements = 1;
       extrapolated.shift = (4.0 * results[3].shift - results[0].shift) / 3.0;
       print(extrapolated, reference, poisson);

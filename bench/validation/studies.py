@@ -241,9 +241,9 @@ def ablation(runner):
 
 def mesh(runner, heads):
     """The same head in three meshes, at equal volumes of air."""
-    headlines = [("default", 22), ("default", 62), ("paper-2011, MNI size", 22)]
+    headlines = [(preset, volume) for preset in PRESETS for volume in PAPER]
     # The preset of 2011 takes too long on the finest.
-    meshes = {"default": list(heads), "paper-2011, MNI size": list(heads)[:2]}
+    meshes = {preset: list(heads) if preset == "default" else list(heads)[:2] for preset in PRESETS}
     cases = {(preset, volume, name): [*PRESETS[preset], *both(volume), "--head", str(heads[name])]
              for preset, volume in headlines for name in meshes[preset]}
     runs = runner.all(dict(reversed(cases.items())))   # the longest first

@@ -65,14 +65,15 @@ def head_rows(rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--long", action="store_true")
+    parser.add_argument("--heads", nargs="+", choices=["coarse", "medium"], default=["coarse", "medium"])
     parser.add_argument("--write-docs", action="store_true")
     options = parser.parse_args()
     out = ROOT / "out/verification"
     out.mkdir(parents=True, exist_ok=True)
-    page = ["# Verification", "", "Written by `bench/verification/run"
-            f"{' --long' if options.long else ''} --write-docs`: what the tests against known numbers print.",
-            "Derivatives, orders and closed forms that print nothing are tests all the same; `tests/run` runs "
-            "all of them."]
+    command = "--long --heads " + " ".join(options.heads) + " --write-docs" if options.long else "--write-docs"
+    page = ["# Verification", "", f"Written by `bench/verification/run {command}`: what the tests against",
+            "known numbers print. Derivatives, orders and closed forms that print nothing are tests all the",
+            "same; `tests/run` runs all of them."]
     failed, counts = [], []
     for program in PROGRAMS:
         suites = {}
@@ -91,7 +92,7 @@ def main():
                     page += [f"`{suite}.{name}`{'' if status == 'OK' else ': ' + status}", "", "```",
                              *lines, "```", ""]
     if options.long:
-        for name in ("coarse", "medium"):
+        for name in options.heads:
             page += ["", f"## The {name} head", "", "22 mL of air on both sides, no devices; the reference "
                      "is the finest quadratic solution on the same", "geometry. Extrapolated: linear tets on "
                      "both meshes, to order two (Richardson).", "", *head_rows(head_table(name, 250000))]

@@ -273,7 +273,8 @@ class Stepper {
   // first order. Contacts that are closed stay closed, forces of devices stay what they are; errors
   // of the geometry, the law and its parameters are not in it. Costs a factorisation of the linear
   // tets and some tens of products with the quadratic ones, whose matrix is some ten times as large.
-  // Throws invalid_argument on quadratic tets, linear_solver where the state is not stable.
+  // Throws invalid_argument on quadratic tets and on a state in motion, linear_solver where it is not
+  // stable.
   ErrorEstimate estimate_error(const Points& rest_points) const;
 
   // A copy of state (with velocities) and settings; restore() brings back the same bits.

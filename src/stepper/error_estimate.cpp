@@ -1,6 +1,7 @@
 #include "stepper/error_estimate.hpp"
 
 #include <cmath>
+#include <map>
 #include <memory>
 #include <utility>
 

@@ -7,8 +7,6 @@
 // iterations whatever the mesh. docs/theory.md (24)
 #pragma once
 
-#include <map>
-
 #include "brainshift/stepper.hpp"
 #include "coupling/coupling.hpp"
 #include "stepper/equilibrium.hpp"

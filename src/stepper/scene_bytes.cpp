@@ -136,6 +136,9 @@ Scene get_scene(ByteReader& r) {
   scene.gravity = r.matrix<Vec3>();
   scene.balanced_reference = r.get<bool>();
   scene.volume_strain = r.get<VolumeStrain>();
+  if (scene.volume_strain != VolumeStrain::element && scene.volume_strain != VolumeStrain::nodal) {
+    r.fail("there is no such volume strain");
+  }
   if (r.get<bool>()) {
     scene.csf = get_fluid(r);
     get_fluid_settings(r, *scene.csf);

@@ -185,6 +185,9 @@ ErrorEstimate Stepper::estimate_error(const Points& rest_points) const {
   if (m_impl->m_mesh.is_quadratic()) {
     throw Error(ErrorCode::invalid_argument, "the error estimate is for linear tets");
   }
+  if (!m_impl->m_state.velocity.isZero(0.0)) {
+    throw Error(ErrorCode::invalid_argument, "the error estimate is for a state at rest");
+  }
   ErrorEstimate estimate;
   {
     const Stopwatch watch(estimate.seconds);

@@ -196,5 +196,19 @@ TEST(LateralStiffness, WithTheLocalGiveIsNearThatOfTheAnnulus) {
   }
 }
 
+TEST(LateralStiffness, OfQuadraticTetsWithTheLocalGive) {
+  for (bool leaning : {false, true}) {
+    const Shape shape{4.0, 4, leaning};
+    const Spread given = spread(Element::quadratic, shape, local_give);
+    std::printf(
+        "lateral stiffness over the annulus', quadratic, %s, h 4 mm: with local give %.3f (%.3f to "
+        "%.3f)\n",
+        leaning ? "leaning" : "upright", given.mean, given.low, given.high);
+    EXPECT_NEAR(given.mean, 1.0, 0.1);
+    EXPECT_GE(given.low, 0.74);
+    EXPECT_LE(given.high, 1.25);
+  }
+}
+
 }  // namespace
 }  // namespace brainshift::test

@@ -82,6 +82,13 @@ TEST(ErrorEstimate, NoErrorNoEstimate) {
   EXPECT_TRUE(std::isnan(estimate.error[1]));
 }
 
+TEST(ErrorEstimate, IsRefusedInMotion) {
+  Stepper stepper(bar(Law::linear, 0.02));
+  ASSERT_TRUE(stepper.step(0.01).converged());
+  test::expect_error(ErrorCode::invalid_argument, {"at rest"},
+                     [&] { stepper.estimate_error(Points::Zero(1, 3)); });
+}
+
 TEST(ErrorEstimate, IsRefusedOnQuadraticTets) {
   const Stepper stepper(quadratic(bar(Law::linear, 0.0)));
   test::expect_error(ErrorCode::invalid_argument, {"linear tets"},

@@ -178,6 +178,27 @@ Eigen::VectorXd Reduction::restrict_force(const Eigen::VectorXd& v) const {
   return y;
 }
 
+SparseColumns Reduction::restrict_columns(const SparseColumns& forces) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](Index block, const Vec3& force, int column) {
+    const Block& b = m_blocks[std::size_t(block)];
+    const Vec3 felt = b.plain ? force : Vec3(b.free().transpose() * force);
+    for (int k = 0; k < 3; ++k) entries.emplace_back(3 * block + k, column, felt[k]);
+  };
+  for (int c = 0; c < int(forces.cols()); ++c) {
+    for (SparseColumns::InnerIterator it(forces, c); it; ++it) {
+      const Index block = Index(it.row()) / 3;
+      const Vec3 force = it.value() * Vec3::Unit(it.row() % 3);
+      add(block, force, c);
+      const Block& b = m_blocks[std::size_t(block)];
+      if (b.pair >= 0) add(b.partner, b.pair_normal * b.pair_response.dot(force), c);
+    }
+  }
+  SparseColumns result(forces.rows(), forces.cols());
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
 Eigen::VectorXd Reduction::expand(const Eigen::VectorXd& y) const {
   Eigen::VectorXd dx = y;
   for (std::size_t i = 0; i < m_blocks.size(); ++i) {

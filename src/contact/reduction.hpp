@@ -34,6 +34,7 @@ class Reduction {
   void reduce(const BlockMatrix& K, double diagonal, BlockMatrix& A) const;
   // y-space right-hand side T^T v for a force v; fixed directions get 0.
   Eigen::VectorXd restrict_force(const Eigen::VectorXd& v) const;
+  SparseColumns restrict_columns(const SparseColumns& forces) const;
   // dx = T y (homogeneous), and the particular solution c.
   Eigen::VectorXd expand(const Eigen::VectorXd& y) const;
   const Eigen::VectorXd& particular() const { return m_particular; }

@@ -29,7 +29,10 @@ double multiplier_of(const DeviceMotion& motion, const CouplingRow& row) {
 Coupling::Coupling(const Mesh& mesh, const std::vector<InsertedDevice>& devices,
                    const Points& start)
     : m_mesh(mesh), m_devices(devices) {
+  Eigen::Index columns = 0;
   for (const InsertedDevice& d : devices) {
+    m_first_column.push_back(columns);
+    columns += 3 * Eigen::Index(d.path.size());
     m_held.push_back(d.held_dofs());
     std::vector<double> arcs;
     for (const PathPoint& p : d.path) {
@@ -99,6 +102,30 @@ void Coupling::add_anchor_rows(std::size_t d, const BeamState& state,
   rows.push_back({d, 0, 2, RowKind::anchor_stop, at.outward, place, slack + along, 0.0, unbounded});
   rows.push_back({d, 0, 3, RowKind::anchor_stop, -at.outward, place, slack - along, 0.0,
                   unbounded});
+}
+
+Eigen::Index Coupling::path_column(const CouplingRow& row) const {
+  return m_first_column[row.device] + 3 * Eigen::Index(row.point);
+}
+
+SparseColumns Coupling::path_columns(const Blocks& blocks) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::Index column = 0;
+  for (const InsertedDevice& device : m_devices) {
+    for (const PathPoint& point : device.path) {
+      const Interpolation at = m_mesh.interpolation(point.tet, point.weights);
+      for (std::size_t a = 0; a < std::size_t(at.count); ++a) {
+        const Index block = blocks.block_of()[std::size_t(at.nodes[a])];
+        for (int k = 0; k < 3; ++k) {
+          entries.emplace_back(3 * block + k, column + k, at.weights[a]);
+        }
+      }
+      column += 3;
+    }
+  }
+  SparseColumns columns(3 * blocks.count(), column);
+  columns.setFromTriplets(entries.begin(), entries.end());
+  return columns;
 }
 
 Eigen::VectorXd Coupling::tissue_gradient(const CouplingRow& row, const Blocks& blocks) const {

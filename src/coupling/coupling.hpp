@@ -64,6 +64,14 @@ class Coupling {
   void add_forces(const std::vector<CouplingRow>& rows, const std::vector<DeviceMotion>& motions,
                   Points& nodal, DeviceVectors& on_devices) const;
 
+  // Motion of every path point along x, y, z: three columns each on blocks, in the order of devices and
+  // their paths. A row on tissue is its direction in the three columns of its point, path_column().
+  SparseColumns path_columns(const Blocks& blocks) const;
+  bool is_on_tissue(const CouplingRow& row) const {
+    return row.kind == RowKind::across || row.kind == RowKind::along;
+  }
+  Eigen::Index path_column(const CouplingRow& row) const;
+
   // Gradient of a row: on blocks (3 x count), and on the dofs of its device.
   Eigen::VectorXd tissue_gradient(const CouplingRow& row, const Blocks& blocks) const;
   Eigen::VectorXd device_gradient(const CouplingRow& row,
@@ -86,6 +94,7 @@ class Coupling {
   const Mesh& m_mesh;
   const std::vector<InsertedDevice>& m_devices;
   std::vector<std::vector<Index>> m_held;
+  std::vector<Eigen::Index> m_first_column;   // per device, of its path
   // Where each path point stood along its device when the solve began, for slip.
   std::vector<std::vector<double>> m_start_arcs;
 };

@@ -6,9 +6,13 @@
 #include <algorithm>
 #include <vector>
 
+#include <Eigen/SparseCore>
+
 #include "brainshift/types.hpp"
 
 namespace brainshift {
+
+using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
 class BlockMatrix {
  public:

@@ -16,6 +16,8 @@ class SpdSolver {
   virtual bool factorise(const BlockMatrix& matrix) = 0;
   // Overwrites each column of `x` with the solution for it.
   virtual void solve(Eigen::MatrixXd& x) = 0;
+  // C^T A^-1 C; cheap where each column of C has few entries (the rows it reaches alone are worked on).
+  virtual Eigen::MatrixXd compliance(const SparseColumns& C) = 0;
   // Threads that solves for many columns may use; no result depends on it.
   virtual void set_threads(int threads) = 0;
   // Entries of the factor.

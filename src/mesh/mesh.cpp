@@ -27,6 +27,7 @@ struct Mesh::Data {
   EdgeNodes edge_nodes;  // none if linear
   Triangles surface_edge_nodes;
   std::vector<char> corner;
+  double diameter = 0.0;
   Indices regions;
   Index reoriented = 0;
   BoundaryFaces boundary;
@@ -205,6 +206,7 @@ std::shared_ptr<const Mesh::Data> Mesh::make(Points nodes, Tets tets, EdgeNodes 
     }
   }
   if (regions.empty()) regions.assign(std::size_t(tets.rows()), 0);
+  data->diameter = (nodes.colwise().maxCoeff() - nodes.colwise().minCoeff()).norm();
   data->nodes = std::move(nodes);
   data->tets = std::move(tets);
   data->edge_nodes = std::move(edge_nodes);
@@ -267,9 +269,7 @@ double Mesh::volume(Index region) const {
   return sum;
 }
 
-double Mesh::diameter() const {
-  return (nodes().colwise().maxCoeff() - nodes().colwise().minCoeff()).norm();
-}
+double Mesh::diameter() const { return m_data->diameter; }
 
 Indices Mesh::faces_of_region(Index region) const {
   Indices faces;

@@ -67,7 +67,8 @@ Newton::Outcome Newton::begin(const MechanicalState& start, const Offset& offset
   m_iteration = 0;
   m_last = m_previous = std::numeric_limits<double>::infinity();
   m_active.assign(m_eq.contacts().size(), 0);
-  m_factored_set.clear();
+  m_factor.reset();
+  m_path_columns = m_coupling.path_columns(m_eq.blocks());
   refresh();
   measure();
   if (m_report.residual <= 1e-4 * m_options.residual_tolerance &&
@@ -85,7 +86,6 @@ void Newton::linearise() {
 
 void Newton::solve() {
   m_found = m_fresh ? find_step() : reuse_factor();
-  if (m_found && m_fresh) m_factored_set = m_active;
 }
 
 Newton::Outcome Newton::update() {
@@ -101,7 +101,6 @@ Newton::Outcome Newton::update() {
 Newton::Outcome Newton::blame() {
   if (!m_fresh) {
     m_fresh = true;
-    m_active = m_factored_set;
     return Outcome::ongoing;
   }
   if (m_definite) return Outcome::stuck;
@@ -126,7 +125,7 @@ Newton::Outcome Newton::take(double part, MechanicalState& next) {
   }
   if (small_enough(m_last)) return Outcome::converged;
   // The factor at hand serves again while the set stands and it converges fast.
-  const bool same = m_active == m_factored_set;
+  const bool same = m_active == m_factor->active;
   m_fresh = !(same && part == 1.0 && m_last <= 1e-3 * m_eq.mesh().diameter() &&
               m_last <= 0.1 * m_previous);
   return Outcome::ongoing;

@@ -56,6 +56,14 @@ class Newton {
   bool lost_stability() const { return m_lost_stability; }
 
  private:
+  // The factor at hand, what it was made of, and what has been solved with it.
+  struct Factor {
+    Reduction reduction;
+    std::vector<char> active;              // per contact row, of the reduction
+    Eigen::MatrixXd term_rows;             // heads: T^T row, one per column
+    Eigen::MatrixXd term_moves;            // A^-1 T^T column
+    Eigen::MatrixXd path;                  // compliance of the path columns of the coupling
+  };
   struct Step {
     Eigen::VectorXd dx;                 // on blocks
     std::vector<double> multipliers;    // per contact row
@@ -75,6 +83,7 @@ class Newton {
   bool factorise_shifted(const Reduction& reduction, bool singular);
   bool flies(const Step& step) const;
   Reduction make_reduction(const Reduction* like = nullptr) const;
+  void keep_factor(const Reduction& reduction);
   Step direction(const Reduction& reduction);
   bool update_active(const Step& step);                  // true: the set changed
   bool find_step();
@@ -90,11 +99,13 @@ class Newton {
   void measure();
   Offset no_offset() const;
   bool factorise_devices();
-  Eigen::MatrixXd solve_tissue(const Reduction& reduction, const Eigen::MatrixXd& forces) const;
+  Eigen::VectorXd times_tangent(const Eigen::VectorXd& dx) const;
+  Eigen::VectorXd solve_factored(const Eigen::VectorXd& y) const;
+  Eigen::VectorXd solve_tissue(const Reduction& reduction, const Eigen::VectorXd& force) const;
   // Step of tissue and devices through their rows; adds the rows' force to `pushed`.
-  void couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step& step,
-              Eigen::VectorXd& pushed);
+  void couple(const Reduction& reduction, Step& step, Eigen::VectorXd& pushed);
   struct Coupled;
+  Coupled coupled_problem() const;
   void add_devices(Coupled& problem) const;
   bool solve_rows(const Coupled& problem, const DeviceVectors& loads, Step& step);
   void proximal_steps(const Coupled& problem, Step& step);
@@ -137,10 +148,10 @@ class Newton {
   bool m_fresh = true;                  // the next iteration assembles and factorises
   bool m_definite = false;              // with the projected tangent
   bool m_lost_stability = false;        // of the last tangent that was factored
-  std::vector<char> m_factored_set;     // m_active of the factor at hand
   int m_iteration = 0;                  // since begin()
   double m_last = 0.0, m_previous = 0.0;   // mm; lengths of the last two steps
-  std::optional<Reduction> m_factored;  // the one the factor at hand was made with
+  SparseColumns m_path_columns;            // of the coupling
+  std::optional<Factor> m_factor;
 };
 
 }  // namespace brainshift

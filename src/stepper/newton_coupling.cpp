@@ -9,6 +9,7 @@
 #include "brainshift/error.hpp"
 #include "brainshift/mcp.hpp"
 #include "stepper/newton.hpp"
+#include "stepper/norms.hpp"
 
 namespace brainshift {
 namespace {
@@ -24,7 +25,7 @@ constexpr double immovable = 1e-10;
 
 // Takes such rows out of W z + q, lower <= z <= upper: they carry nothing. C: columns are the gradients
 // of the rows on tissue; stiffness: of one of its nodes (mN/mm).
-void take_out_held_rows(const Eigen::Ref<const Eigen::MatrixXd>& C, double stiffness,
+void take_out_held_rows(const SparseColumns& C, double stiffness,
                         Eigen::MatrixXd& W, Eigen::VectorXd& q, Eigen::VectorXd& lower,
                         Eigen::VectorXd& upper) {
   for (Eigen::Index r = 0; r < q.size(); ++r) {
@@ -112,10 +113,9 @@ bool Newton::factorise_devices() {
 struct Newton::Coupled {
   Eigen::Index count;                // of rows
   std::vector<TieTurn> turns;
-  Eigen::MatrixXd C;                 // gradients on the tissue, one per column
-  Eigen::MatrixXd Z;                 // A^-1 C: motions of the tissue
+  SparseColumns C;                   // gradients on the tissue, one per column
   std::vector<Eigen::MatrixXd> D, Y; // per device: gradients, B^-1 D
-  Eigen::MatrixXd W;                 // C^T Z + sum D^T Y
+  Eigen::MatrixXd W;                 // C^T A^-1 C + sum D^T Y
   Eigen::VectorXd q;                 // without the devices' own steps
   Eigen::VectorXd lower, upper;      // of the rows
 
@@ -155,8 +155,7 @@ void Newton::Coupled::eliminate_turns() {
 void Newton::Coupled::drop_turns() {
   turns.clear();
   const auto cut = [this](Eigen::MatrixXd& columns) { columns = columns.leftCols(count).eval(); };
-  cut(C);
-  cut(Z);
+  C = C.leftCols(count).eval();
   for (Eigen::MatrixXd& part : D) cut(part);
   for (Eigen::MatrixXd& part : Y) cut(part);
   W = W.topLeftCorner(count, count).eval();
@@ -214,7 +213,7 @@ bool Newton::solve_rows(const Coupled& problem, const DeviceVectors& loads, Step
   if (problem.count == 0) return true;
   Eigen::MatrixXd W = problem.rows_alone;
   Eigen::VectorXd right = problem.alone(q), lower = problem.lower, upper = problem.upper;
-  take_out_held_rows(problem.C.leftCols(problem.count), m_cache.stiffness.mean_diagonal(), W, right,
+  take_out_held_rows(problem.C, m_cache.stiffness.mean_diagonal(), W, right,
                      lower, upper);
   McpOptions options;
   options.noise = gap_rounding * m_eq.mesh().nodes().cwiseAbs().maxCoeff();
@@ -258,53 +257,57 @@ void Newton::proximal_steps(const Coupled& problem, Step& step) {
   }
 }
 
-// W multiplier + (gap + rows . free step) = w,  W = C A^-1 C^T + D B^-1 D^T.
-void Newton::couple(const Reduction& reduction, const Eigen::VectorXd& rhs, Step& step,
-                    Eigen::VectorXd& pushed) {
+// Rows and turns at the iterate, with the compliance the factor at hand gives them.
+Newton::Coupled Newton::coupled_problem() const {
   Coupled problem;
   const auto count = problem.count = Eigen::Index(m_couplings.size());
   if (!m_definite) problem.turns = m_coupling.turns(m_couplings, m_state.devices);
-  const auto turns = Eigen::Index(problem.turns.size());
-  problem.q = Eigen::VectorXd::Zero(count + 2 * turns);
+  const auto all = count + problem.extra();
+  problem.q = Eigen::VectorXd::Zero(all);
   problem.lower.resize(count);
   problem.upper.resize(count);
-  // The turns of devices do not touch the tissue: their columns are zero and need no solve.
-  Eigen::MatrixXd forces(rhs.size(), 1 + count + turns);
-  forces.col(0) = rhs;
+  std::vector<Eigen::Triplet<double>> directions;   // of the columns, on those of their path points
+  const auto add = [&](const CouplingRow& row, Eigen::Index column) {
+    if (!m_coupling.is_on_tissue(row)) return;
+    for (int k = 0; k < 3; ++k) {
+      directions.emplace_back(int(m_coupling.path_column(row)) + k, int(column), row.direction[k]);
+    }
+  };
   for (Eigen::Index r = 0; r < count; ++r) {
     const CouplingRow& row = m_couplings[std::size_t(r)];
-    forces.col(1 + r) = m_coupling.tissue_gradient(row, m_eq.blocks());
     problem.q[r] = row.gap - row.give * multiplier_of(m_state.devices[row.device], row);
     problem.lower[r] = row.lower;
     problem.upper[r] = row.upper;
+    add(row, r);
   }
-  for (Eigen::Index i = 0; i < turns; ++i) {
-    forces.col(1 + count + i) =
-        m_coupling.tissue_gradient(problem.turns[std::size_t(i)].slip, m_eq.blocks());
+  // The turn of a device does not touch the tissue: its column stays empty.
+  for (std::size_t i = 0; i < problem.turns.size(); ++i) {
+    add(problem.turns[i].slip, count + 2 * Eigen::Index(i) + 1);
   }
-  const Eigen::MatrixXd moved = solve_tissue(reduction, forces);
-  const Eigen::VectorXd free_dx = moved.col(0) + reduction.particular();
-  const auto arrange = [&](const Eigen::MatrixXd& columns) {
-    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rhs.size(), count + 2 * turns);
-    all.leftCols(count) = columns.middleCols(1, count);
-    for (Eigen::Index i = 0; i < turns; ++i) all.col(count + 2 * i + 1) = columns.col(1 + count + i);
-    return all;
-  };
-  problem.C = arrange(forces);
-  problem.Z = arrange(moved);
-  problem.W = problem.C.transpose() * problem.Z;
+  SparseColumns N(m_path_columns.cols(), all);
+  N.setFromTriplets(directions.begin(), directions.end());
+  problem.C = m_path_columns * N;
+  problem.W = N.transpose() * Eigen::MatrixXd(m_factor->path * N);
   for (Eigen::Index r = 0; r < count; ++r) problem.W(r, r) += m_couplings[std::size_t(r)].give;
-  problem.q += problem.C.transpose() * free_dx;
   add_devices(problem);
   problem.eliminate_turns();
+  return problem;
+}
+
+// W multiplier + (gap + rows . free step) = w,  W = C A^-1 C^T + D B^-1 D^T.
+void Newton::couple(const Reduction& reduction, Step& step, Eigen::VectorXd& pushed) {
+  Coupled problem = coupled_problem();
+  const Eigen::VectorXd free_dx = solve_tissue(reduction, m_load);
+  problem.q += problem.C.transpose() * free_dx;
   if (!solve_rows(problem, m_device_load, step)) {
+    step.dx.setConstant(free_dx.size(), std::nan(""));
     step.coupling.setConstant(std::nan(""));
-    step.pushed.setConstant(std::nan(""));
-  } else if (!m_definite) {
-    proximal_steps(problem, step);
+    return;
   }
-  step.dx = free_dx + problem.Z * step.pushed;
-  pushed += problem.C * step.pushed;
+  if (!m_definite) proximal_steps(problem, step);
+  const Eigen::VectorXd force = problem.C * step.pushed;
+  step.dx = free_dx + reduction.expand(solve_factored(reduction.restrict_force(force)));
+  pushed += force;
 }
 
 // First-order fall of the merit E + sum bound |slip| + weight * sum |open tie| + sum give/2 multiplier^2.
@@ -315,6 +318,7 @@ void Newton::predict(Step& step) const {
     if (row.kind == RowKind::along) continue;
     step.weight = std::max(step.weight, 2.0 * std::abs(step.coupling[r]));
   }
+  const Eigen::VectorXd motion = m_path_columns.transpose() * step.dx;
   for (Eigen::Index r = 0; r < step.coupling.size(); ++r) {
     const CouplingRow& row = m_couplings[std::size_t(r)];
     if (row.kind != RowKind::along) {
@@ -324,7 +328,7 @@ void Newton::predict(Step& step) const {
       continue;
     }
     double change =
-        m_coupling.tissue_gradient(row, m_eq.blocks()).dot(step.dx) +
+        row.direction.dot(motion.segment<3>(m_coupling.path_column(row))) +
         m_coupling.device_gradient(row, m_state.devices).dot(step.dq[row.device]);
     step.predicted -= row.upper * (std::abs(row.gap + change) - std::abs(row.gap));
   }

@@ -50,50 +50,70 @@ bool Newton::factorise_shifted(const Reduction& reduction, bool singular) {
   return false;
 }
 
-// Solves (K + sum column row^T) y = T^T force for each column, on the admissible directions
-// (Sherman, Morrison, Woodbury); the answer is expanded to motions of the blocks.
-Eigen::MatrixXd Newton::solve_tissue(const Reduction& reduction,
-                                     const Eigen::MatrixXd& forces) const {
-  const auto terms = Eigen::Index(m_columns.size()), count = forces.cols();
-  Eigen::MatrixXd y(forces.rows(), count + terms), rows(forces.rows(), terms);
-  for (Eigen::Index k = 0; k < count; ++k) y.col(k) = reduction.restrict_force(forces.col(k));
+// What the factor gives is kept with it: the heads' part, and how the tracks of devices give way.
+void Newton::keep_factor(const Reduction& reduction) {
+  Stopwatch watch(m_report.seconds_factor);
+  const auto terms = Eigen::Index(m_columns.size()), size = 3 * Eigen::Index(m_eq.blocks().count());
+  Factor factor{reduction, m_active, Eigen::MatrixXd(size, terms), Eigen::MatrixXd(size, terms), {}};
   for (Eigen::Index k = 0; k < terms; ++k) {
-    y.col(count + k) = reduction.restrict_force(m_columns[std::size_t(k)]);
-    rows.col(k) = reduction.restrict_force(m_rows[std::size_t(k)]);
+    factor.term_rows.col(k) = reduction.restrict_force(m_rows[std::size_t(k)]);
+    factor.term_moves.col(k) = reduction.restrict_force(m_columns[std::size_t(k)]);
   }
-  m_cache.solver->solve(y);
+  if (terms > 0) m_cache.solver->solve(factor.term_moves);
+  if (!m_coupling.empty()) {
+    const SparseColumns C = reduction.restrict_columns(m_path_columns);
+    factor.path = m_cache.solver->compliance(C);
+    if (terms > 0) {
+      Eigen::MatrixXd moved = factor.term_rows;
+      m_cache.solver->solve(moved);
+      const Eigen::MatrixXd small = Eigen::MatrixXd::Identity(terms, terms) +
+                                    factor.term_rows.transpose() * factor.term_moves;
+      const Eigen::MatrixXd left = C.transpose() * factor.term_moves, right = C.transpose() * moved;
+      factor.path -= left * small.partialPivLu().solve(right.transpose());
+    }
+  }
+  m_factor = std::move(factor);
+}
+
+// (K + sum column row^T) dx.
+Eigen::VectorXd Newton::times_tangent(const Eigen::VectorXd& dx) const {
+  Eigen::VectorXd product;
+  m_cache.stiffness.multiply(dx, product);
+  for (std::size_t k = 0; k < m_columns.size(); ++k) product += m_columns[k] * m_rows[k].dot(dx);
+  return product;
+}
+
+// On the admissible directions of the factor's reduction (Sherman, Morrison, Woodbury).
+Eigen::VectorXd Newton::solve_factored(const Eigen::VectorXd& y) const {
+  Eigen::MatrixXd x = y;
+  m_cache.solver->solve(x);
+  const auto terms = m_factor->term_rows.cols();
   if (terms > 0) {
-    const Eigen::MatrixXd columns = y.rightCols(terms);
-    const Eigen::MatrixXd small =
-        Eigen::MatrixXd::Identity(terms, terms) + rows.transpose() * columns;
-    y.leftCols(count) -= columns * small.partialPivLu().solve(rows.transpose() * y.leftCols(count));
+    const Eigen::MatrixXd small = Eigen::MatrixXd::Identity(terms, terms) +
+                                  m_factor->term_rows.transpose() * m_factor->term_moves;
+    x -= m_factor->term_moves * small.partialPivLu().solve(m_factor->term_rows.transpose() * x);
   }
-  Eigen::MatrixXd moved(forces.rows(), count);
-  for (Eigen::Index k = 0; k < count; ++k) moved.col(k) = reduction.expand(y.col(k));
-  return moved;
+  return x;
+}
+
+// dx with T^T tangent dx = T^T force among the motions the rows allow; the factor is that of `reduction`.
+Eigen::VectorXd Newton::solve_tissue(const Reduction& reduction, const Eigen::VectorXd& force) const {
+  const Eigen::VectorXd& c = reduction.particular();
+  const Eigen::VectorXd b = reduction.restrict_force(force - times_tangent(c));
+  return reduction.expand(solve_factored(b)) + c;
 }
 
 // The step of tissue and devices, and the multipliers of contact and coupling rows.
 Newton::Step Newton::direction(const Reduction& reduction) {
   Stopwatch watch(m_report.seconds_factor);
-  const Eigen::VectorXd& c = reduction.particular();
-  Eigen::VectorXd product;
-  m_cache.stiffness.multiply(c, product);
-  Eigen::VectorXd rhs = m_load - product;
-  for (std::size_t k = 0; k < m_columns.size(); ++k) rhs -= m_columns[k] * m_rows[k].dot(c);
-
   Step step;
   Eigen::VectorXd pushed = m_load;  // with what the coupling adds
   if (m_coupling.empty()) {
-    step.dx = solve_tissue(reduction, rhs) + c;
+    step.dx = solve_tissue(reduction, m_load);
   } else {
-    couple(reduction, rhs, step, pushed);
+    couple(reduction, step, pushed);
   }
-  m_cache.stiffness.multiply(step.dx, product);
-  Eigen::VectorXd unbalanced = pushed - product;
-  for (std::size_t k = 0; k < m_columns.size(); ++k) {
-    unbalanced -= m_columns[k] * m_rows[k].dot(step.dx);
-  }
+  const Eigen::VectorXd unbalanced = pushed - times_tangent(step.dx);
   step.multipliers.assign(m_active.size() + 1, 0.0);  // the last one collects fixed rows
   reduction.multipliers(unbalanced, step.multipliers);
   step.multipliers.pop_back();
@@ -105,7 +125,7 @@ Newton::Step Newton::direction(const Reduction& reduction) {
 
 // The factor at hand, with rows and forces of today.
 bool Newton::reuse_factor() {
-  m_step = direction(make_reduction(&*m_factored));
+  m_step = direction(make_reduction(&m_factor->reduction));
   return m_step.dx.allFinite();
 }
 
@@ -140,12 +160,12 @@ bool Newton::find_step() {
   for (int change = 0, shifts = 0;;) {
     const Reduction reduction = make_reduction();
     if (!factorise(reduction, singular)) return false;
+    keep_factor(reduction);
     m_step = direction(reduction);
     singular = flies(m_step) && ++shifts < max_shifts;
     if (singular) continue;
     if (!m_step.dx.allFinite()) return false;
     const std::vector<char> used = m_active;
-    m_factored = reduction;
     if (!update_active(m_step)) return true;
     if (++change >= max_active_set_changes) {
       m_active = used;

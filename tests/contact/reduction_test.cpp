@@ -264,5 +264,21 @@ TEST(Reduction, AxesFollowAFormerReductionSoThatItsFactorServesAgain) {
   }
 }
 
+// Forces in sparse columns are restricted like any others, those on both sides of a pair among them.
+TEST(Reduction, RestrictsColumnsAsItRestrictsForces) {
+  Problem p(11);
+  p.row(0, p.direction());
+  p.row(1, p.direction());
+  p.row(1, p.direction());
+  p.row(2, p.direction(), 3);
+  const Reduction reduction(blocks, p.rows);
+  const Eigen::MatrixXd forces = Eigen::MatrixXd::Random(3 * blocks, 4);
+  const Eigen::MatrixXd found = reduction.restrict_columns(SparseColumns(forces.sparseView()));
+  for (Eigen::Index c = 0; c < forces.cols(); ++c) {
+    const Eigen::VectorXd exact = reduction.restrict_force(forces.col(c));
+    EXPECT_LT((found.col(c) - exact).norm(), 1e-14 * exact.norm());
+  }
+}
+
 }  // namespace
 }  // namespace brainshift

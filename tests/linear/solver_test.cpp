@@ -77,6 +77,23 @@ TEST(SpdSolver, SolvesOfManyColumnsDoNotDependOnThreads) {
   EXPECT_LT((random.dense * found[0] - b).norm(), 1e-13 * b.norm());
 }
 
+// Columns of one entry, of many, of one that another has too, and an empty one.
+TEST(SpdSolver, TheComplianceIsThatOfDenseSolves) {
+  const test::RandomMatrix random(150, 8);
+  std::vector<Eigen::Triplet<double>> entries{{449, 0, 2.0}, {0, 1, 1.0}, {1, 1, -1.0}, {0, 3, 0.5}};
+  for (int i = 0; i < 450; i += 7) entries.emplace_back(i, 4, 0.1 * i - 20.0);
+  SparseColumns C(450, 5);
+  C.setFromTriplets(entries.begin(), entries.end());
+  const auto solver = make_spd_solver();
+  solver->analyse(random.blocks);
+  ASSERT_TRUE(solver->factorise(random.blocks));
+  const Eigen::MatrixXd found = solver->compliance(C);
+  const Eigen::MatrixXd exact = C.transpose() * random.dense.ldlt().solve(Eigen::MatrixXd(C));
+  EXPECT_LT((found - exact).norm(), 1e-13 * exact.norm());
+  EXPECT_EQ(found, found.transpose());
+  EXPECT_EQ(found.col(2).norm(), 0.0);
+}
+
 TEST(SpdSolver, SaysWhenAMatrixIsNotPositiveDefiniteAndServesAgain) {
   const test::RandomMatrix good(40, 3), bad(40, 3, -5.0);
   const auto solver = make_spd_solver();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "brainshift/error.hpp"
+#include "linear/cholmod/compliance.hpp"
 #include "linear/spd_solver.hpp"
 #include "threads/for_chunks.hpp"
 
@@ -154,6 +155,11 @@ class CholmodSolver final : public SpdSolver {
       const Eigen::Index count = std::min(columns_per_chunk, x.cols() - from);
       m_workspaces[std::size_t(c)]->solve(m_factor, x.middleCols(from, count));
     });
+  }
+
+  Eigen::MatrixXd compliance(const SparseColumns& C) override {
+    const BlasTurn turn;
+    return supernodal_compliance(*m_factor, C);
   }
 
   void set_threads(int threads) override { m_threads = threads; }

@@ -27,6 +27,13 @@ class EigenSolver final : public SpdSolver {
                [&](Index c) { x.col(c) = m_llt.solve(x.col(c)).eval(); });
   }
 
+  Eigen::MatrixXd compliance(const SparseColumns& C) override {
+    Eigen::MatrixXd x = C;
+    solve(x);
+    Eigen::MatrixXd product = C.transpose() * x;
+    return 0.5 * (product + product.transpose());
+  }
+
   void set_threads(int threads) override { m_threads = threads; }
 
   double factor_nonzeros() const override { return m_nonzeros; }

@@ -36,9 +36,9 @@ struct TrackOptions {
   double tip_bound = 0.0;      // mN; friction besides, at the deepest point of the track: tissue that
                                // has grown onto the tip
   double least_spacing = 1.0;  // mm; path points closer than this are one
-  // Elements much wider than the device feel it as a rod of their own width: tissue seems too stiff
-  // across it, twofold and more at elements of 5 mm. true: each tie gives way by what is missing, in the
-  // plane strain of an annulus, docs/theory.md (25). The tissue beside the device then lies off it by that much.
+  // Elements wider than the device feel it as a rod of their own width: tissue seems too stiff across it,
+  // twofold and more at elements of 5 mm. true: each tie acts over a ring as wide as they are and gives way
+  // by what is missing, docs/theory.md (25). The tissue beside the device then lies off it by that much.
   bool local_give = false;
 };
 

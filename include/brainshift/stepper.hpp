@@ -270,9 +270,9 @@ class Stepper {
 
   // The error of the discretisation in the displacement at `rest_points`, of the last static state, for
   // linear tets of either volume strain: what quadratic tets on the same geometry would change, to
-  // first order. Contacts that are closed stay closed, forces of devices stay what they are; errors
-  // of the geometry, the law and its parameters are not in it. Costs a factorisation of the linear
-  // tets and some tens of products with the quadratic ones, whose matrix is some ten times as large.
+  // first order, with the contacts they would have; forces of devices stay what they are. Errors of
+  // the geometry, the law and its parameters are not in it. Costs a factorisation of the linear tets
+  // and, per change of contacts, tens of products with the quadratic ones' matrix, ten times as large.
   // Throws invalid_argument on quadratic tets and on a state in motion, linear_solver where it is not
   // stable.
   ErrorEstimate estimate_error(const Points& rest_points) const;

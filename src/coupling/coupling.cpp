@@ -132,11 +132,13 @@ Eigen::VectorXd Coupling::tissue_gradient(const CouplingRow& row, const Blocks& 
   Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * blocks.count());
   if (row.kind == RowKind::anchor_across || row.one_sided()) return g;
   const PathPoint& point = m_devices[row.device].path[row.point];
-  const Interpolation at = m_mesh.interpolation(point.tet, point.weights);
-  for (std::size_t a = 0; a < std::size_t(at.count); ++a) {
-    const Index block = blocks.block_of()[std::size_t(at.nodes[a])];
-    g.segment<3>(3 * block) += at.weights[a] * row.direction;
-  }
+  for_each_tie_point(point, [&](Index tet, const Eigen::Vector4d& weights, double share) {
+    const Interpolation at = m_mesh.interpolation(tet, weights);
+    for (std::size_t a = 0; a < std::size_t(at.count); ++a) {
+      const Index block = blocks.block_of()[std::size_t(at.nodes[a])];
+      g.segment<3>(3 * block) += share * at.weights[a] * row.direction;
+    }
+  });
   return g;
 }
 
@@ -159,10 +161,12 @@ void Coupling::add_forces(const std::vector<CouplingRow>& rows,
     on_devices[row.device] += multiplier * device_gradient(row, motions);
     if (row.kind == RowKind::anchor_across || row.one_sided()) continue;
     const PathPoint& point = m_devices[row.device].path[row.point];
-    const Interpolation at = m_mesh.interpolation(point.tet, point.weights);
-    for (std::size_t a = 0; a < std::size_t(at.count); ++a) {
-      nodal.row(at.nodes[a]) += (multiplier * at.weights[a] * row.direction).transpose();
-    }
+    for_each_tie_point(point, [&](Index tet, const Eigen::Vector4d& weights, double share) {
+      const Interpolation at = m_mesh.interpolation(tet, weights);
+      for (std::size_t a = 0; a < std::size_t(at.count); ++a) {
+        nodal.row(at.nodes[a]) += (share * multiplier * at.weights[a] * row.direction).transpose();
+      }
+    });
   }
 }
 

@@ -66,8 +66,12 @@ void clamp_friction(InsertedDevice& device) {
 }
 
 Vec3 path_position(const Mesh& mesh, const Points& u, const PathPoint& point) {
-  const Interpolation at = mesh.interpolation(point.tet, point.weights);
-  return at.of(mesh.nodes()) + at.of(u);
+  Vec3 mean = Vec3::Zero();
+  for_each_tie_point(point, [&](Index tet, const Eigen::Vector4d& weights, double share) {
+    const Interpolation at = mesh.interpolation(tet, weights);
+    mean += share * (at.of(mesh.nodes()) + at.of(u));
+  });
+  return mean;
 }
 
 }  // namespace brainshift

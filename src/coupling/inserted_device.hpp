@@ -51,7 +51,7 @@ double friction_bound(const InsertedDevice& device, std::size_t p, double arc);
 // Friction the device cannot bear falls to what it can.
 void clamp_friction(InsertedDevice& device);
 
-// Position of a path point for displacements u.
+// Where the ties of a path point take hold, for displacements u.
 Vec3 path_position(const Mesh& mesh, const Points& u, const PathPoint& point);
 
 }  // namespace brainshift

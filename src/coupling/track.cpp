@@ -167,7 +167,7 @@ std::vector<PathPoint> crossings(const Mesh& mesh, const Points& positions, cons
     if (c.to - before < least_spacing || c.to >= length) continue;
     Eigen::Vector4d weights = (c.at_tip + c.to * c.slope).cwiseMax(0.0);
     weights /= weights.sum();
-    PathPoint point{piece.tet, weights, c.to, 0.0};
+    PathPoint point{piece.tet, weights, c.to, 0.0, 0.0, {}, 0.0};
     if (mesh.is_quadratic() && !onto_line(mesh, positions, tip, outward, point)) continue;
     if (known.take(mesh, point)) path.push_back(point);
   }

@@ -7,13 +7,29 @@
 
 namespace brainshift {
 
+// A material point of tissue.
+struct TetPoint {
+  Index tet;
+  Eigen::Vector4d weights;  // barycentric (natural, if quadratic)
+};
+
 struct PathPoint {
   Index tet;
-  Eigen::Vector4d weights;  // barycentric (natural, if quadratic); a point on a face between two tets has one zero
+  Eigen::Vector4d weights;  // as of a TetPoint; a point on a face between two tets has one zero
   double arc;               // mm from the tip when it was found
   double length;            // mm of the track it stands for
   double give = 0.0;        // mm/mN; of its ties, see local_give.hpp
+  std::vector<TetPoint> ring;  // its ties take the mean of these points around it; none: the point alone
+  double spread = 0.0;         // mm; radius of the ring
 };
+
+// Calls at(tet, weights, share) for the material points whose mean is where the ties of a path point take
+// hold; the shares add up to 1.
+template <class At>
+void for_each_tie_point(const PathPoint& point, const At& at) {
+  if (point.ring.empty()) return at(point.tet, point.weights, 1.0);
+  for (const TetPoint& p : point.ring) at(p.tet, p.weights, 1.0 / double(point.ring.size()));
+}
 
 // Crossings of the segment from `tip` along `outward` (unit) with faces of the deformed tets, from
 // the tip outwards: between two tets each point lies on the face they share, so no tet holds more

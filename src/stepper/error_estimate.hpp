@@ -1,10 +1,11 @@
 // By how much quadratic tets would move a state that linear ones have found.
 //
 // The scene is taken over to quadratic tets at the interpolated state u. What is out of balance there,
-// r, moves them by w, K w = r, with their tangent K and the contacts that are closed: one step of
-// Newton's method towards the quadratic solution. It is found by conjugate gradients, preconditioned
-// by the blocks of the nodes and by the linear tets' own factor (two levels): some tens of
-// iterations whatever the mesh. docs/theory.md (24)
+// r, moves them by w: one step of Newton's method towards the quadratic solution, K w = r with their
+// tangent K and with the contacts that this problem closes: edge nodes and corners do not touch in the
+// same places. It is found by conjugate gradients, preconditioned by the blocks of the nodes and by the
+// linear tets' own factor (two levels): some tens of iterations for each change of the contacts,
+// whatever the mesh. docs/theory.md (24)
 #pragma once
 
 #include "brainshift/stepper.hpp"

@@ -66,6 +66,12 @@ void put(ByteWriter& w, const InsertedDevice& d) {
     w.put(d.path[p].arc);
     w.put(d.path[p].length);
     w.put(d.path[p].give);
+    w.put(d.path[p].spread);
+    w.put(d.path[p].ring.size());
+    for (const TetPoint& point : d.path[p].ring) {
+      w.put(point.tet);
+      w.put(point.weights);
+    }
     w.put(d.motion.multipliers[p]);
   }
   w.put(d.motion.beam.x);
@@ -89,7 +95,7 @@ InsertedDevice get_inserted(ByteReader& r, const Mesh& mesh) {
   for (double* value : {&options.shear_bound, &options.tip_bound, &options.least_spacing}) {
     *value = r.get<double>();
   }
-  std::vector<PathPoint> path(r.count(12 * 8));
+  std::vector<PathPoint> path(r.count(15 * 8));
   std::vector<Vec3> multipliers(path.size());
   for (std::size_t p = 0; p < path.size(); ++p) {
     path[p].tet = r.get<Index>();
@@ -98,6 +104,13 @@ InsertedDevice get_inserted(ByteReader& r, const Mesh& mesh) {
     path[p].arc = r.get<double>();
     path[p].length = r.get<double>();
     path[p].give = r.get<double>();
+    path[p].spread = r.get<double>();
+    path[p].ring.resize(r.count(6 * 8));
+    for (TetPoint& point : path[p].ring) {
+      point.tet = r.get<Index>();
+      if (point.tet < 0 || point.tet >= mesh.tet_count()) r.fail("a track leaves the mesh");
+      point.weights = r.matrix<Eigen::Vector4d>();
+    }
     multipliers[p] = r.matrix<Vec3>();
   }
   InsertedDevice d = place_device(id, model, placement, hold, options, std::move(path));

@@ -58,7 +58,7 @@ DeviceId Stepper::insert(const BeamDevice& device, const Placement& placement, c
                                           device.length(), options.least_spacing);
   state.devices.push_back(place_device(state.next_device, device, {placement.tip, outward}, hold,
                                        options, std::move(path)));
-  m_impl->set_give(state.devices.back());
+  m_impl->set_give(positions(), state.devices.back());
   return state.next_device++;
 }
 
@@ -81,7 +81,7 @@ void Stepper::exchange(DeviceId id, const BeamDevice& device, const Hold& hold, 
   InsertedDevice next = place_device(id, device, placement, hold, old.options, std::move(path));
   next.motion.multipliers = std::move(multipliers);
   clamp_friction(next);   // its radius may be smaller
-  m_impl->set_give(next);
+  m_impl->set_give(positions(), next);
   old = std::move(next);
 }
 

@@ -141,9 +141,13 @@ class Stepper::Impl {
     return next;
   }
 
-  void set_give(InsertedDevice& device) const {
+  // With the local give; positions: of the nodes now.
+  void set_give(const Points& positions, InsertedDevice& device) const {
     if (!device.options.local_give) return;
-    set_local_give(m_equilibrium.tissue(), device.beam.device().section(0).radius, device.path);
+    const Tissue& tissue = m_equilibrium.tissue();
+    const double radius = device.beam.device().section(0).radius;
+    spread_ties(tissue, positions, device.placement.outward, radius, device.path);
+    set_local_give(tissue, radius, device.path);
   }
 
   InsertedDevice& device(DeviceId id) {

@@ -65,9 +65,11 @@ TEST(ErrorEstimate, SeesFluidAndContact) {
   scene.balanced_reference = false;
   scene.gravity = Vec3(0, 0, -standard_gravity);
   scene.csf->set_lost_volume(0, 6000.0);
+  // Corners and edge nodes do not touch in the same places: with the contacts of the linear tets the
+  // estimate would be half of the error.
   const Compared c = compare(scene, {15, 15, 30});
-  EXPECT_LE(c.estimate, 3.0 * c.error);
-  EXPECT_GE(c.estimate, c.error / 3.0);
+  EXPECT_LE(c.estimate, 1.2 * c.error);
+  EXPECT_GE(c.estimate, c.error / 1.2);
 }
 
 TEST(ErrorEstimate, NoErrorNoEstimate) {

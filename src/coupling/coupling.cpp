@@ -113,33 +113,21 @@ SparseColumns Coupling::path_columns(const Blocks& blocks) const {
   Eigen::Index column = 0;
   for (const InsertedDevice& device : m_devices) {
     for (const PathPoint& point : device.path) {
-      const Interpolation at = m_mesh.interpolation(point.tet, point.weights);
-      for (std::size_t a = 0; a < std::size_t(at.count); ++a) {
-        const Index block = blocks.block_of()[std::size_t(at.nodes[a])];
-        for (int k = 0; k < 3; ++k) {
-          entries.emplace_back(3 * block + k, column + k, at.weights[a]);
+      for_each_tie_point(point, [&](Index tet, const Eigen::Vector4d& weights, double share) {
+        const Interpolation at = m_mesh.interpolation(tet, weights);
+        for (std::size_t a = 0; a < std::size_t(at.count); ++a) {
+          const Index block = blocks.block_of()[std::size_t(at.nodes[a])];
+          for (int k = 0; k < 3; ++k) {
+            entries.emplace_back(3 * block + k, column + k, share * at.weights[a]);
+          }
         }
-      }
+      });
       column += 3;
     }
   }
   SparseColumns columns(3 * blocks.count(), column);
   columns.setFromTriplets(entries.begin(), entries.end());
   return columns;
-}
-
-Eigen::VectorXd Coupling::tissue_gradient(const CouplingRow& row, const Blocks& blocks) const {
-  Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * blocks.count());
-  if (row.kind == RowKind::anchor_across || row.one_sided()) return g;
-  const PathPoint& point = m_devices[row.device].path[row.point];
-  for_each_tie_point(point, [&](Index tet, const Eigen::Vector4d& weights, double share) {
-    const Interpolation at = m_mesh.interpolation(tet, weights);
-    for (std::size_t a = 0; a < std::size_t(at.count); ++a) {
-      const Index block = blocks.block_of()[std::size_t(at.nodes[a])];
-      g.segment<3>(3 * block) += share * at.weights[a] * row.direction;
-    }
-  });
-  return g;
 }
 
 Eigen::VectorXd Coupling::device_gradient(const CouplingRow& row,

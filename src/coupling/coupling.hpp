@@ -72,8 +72,7 @@ class Coupling {
   }
   Eigen::Index path_column(const CouplingRow& row) const;
 
-  // Gradient of a row: on blocks (3 x count), and on the dofs of its device.
-  Eigen::VectorXd tissue_gradient(const CouplingRow& row, const Blocks& blocks) const;
+  // Gradient of a row on the dofs of its device.
   Eigen::VectorXd device_gradient(const CouplingRow& row,
                                   const std::vector<DeviceMotion>& motions) const;
 

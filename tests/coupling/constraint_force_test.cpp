@@ -78,12 +78,14 @@ Linearised linearise(const Scene& scene, const Stepper& stepper, double wrong = 
   l.matrix.block(l.tissue, l.tissue, l.device, l.device) = B.dense().cast<long double>();
   l.right.segment(l.tissue, l.device) = -gradient.cast<long double>();
 
+  const Eigen::MatrixXd path = coupling.path_columns(blocks);
   for (Eigen::Index r = 0; r < l.rows; ++r) {
     const CouplingRow& row = rows[std::size_t(r)];
     const long double multiplier =
         (1.0L + wrong) * motions.front().multipliers[row.point][row.axis];
     LongVector both(l.tissue + l.device);
-    both << coupling.tissue_gradient(row, blocks).cast<long double>(),
+    const Eigen::VectorXd on_tissue = path.middleCols<3>(coupling.path_column(row)) * row.direction;
+    both << on_tissue.cast<long double>(),
         coupling.device_gradient(row, motions).cast<long double>();
     const Eigen::Index at = l.tissue + l.device + r;
     l.matrix.col(at).head(both.size()) = -both;

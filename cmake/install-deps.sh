@@ -15,6 +15,7 @@ Groups (default: core):
   data   what examples/head needs to make the head anew: volumes, CGAL, Python packages
   fuzz   clang with libFuzzer and clang-tidy, for tests/robustness
   docs   what draws pictures and charts: VTK, matplotlib, a virtual X server
+  bench  Google Benchmark
 
 Does nothing where all is installed. Needs root or sudo only if something is missing.
 END
@@ -73,6 +74,10 @@ python3-matplotlib|python:matplotlib|matplotlib
 xvfb|command:xvfb-run|a virtual X server (Xvfb)
 xauth|command:xauth|xauth
 libgl1-mesa-dri|-|a software OpenGL
+END
+      ;;
+    bench) cat <<'END'
+libbenchmark-dev|header:benchmark/benchmark.h|Google Benchmark
 END
       ;;
   esac
@@ -198,7 +203,7 @@ main() {
   for group in "$@"; do
     case "$group" in
       -h | --help) usage; exit 0 ;;
-      core | test | data | fuzz | docs) ;;
+      core | test | data | fuzz | docs | bench) ;;
       *) echo "install-deps: unknown group '$group'; known: core test data fuzz docs" >&2; exit 2 ;;
     esac
   done

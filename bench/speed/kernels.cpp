@@ -1,0 +1,203 @@
+// What the parts of a Newton iteration on a head cost. `yardstick` is one numeric factor and one solve of
+// the stiffness of both halves as one system: bench/speed/report.py gives every other time in it.
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include <benchmark/benchmark.h>
+
+#include "beam/beam.hpp"
+#include "brainshift/mcp.hpp"
+#include "linear/spd_solver.hpp"
+#include "speed/heads.hpp"
+#include "stepper/equilibrium.hpp"
+
+namespace {
+
+using namespace dbs;
+
+// A head at rest under the default options, its tangent, and a factor of it.
+struct Rest {
+  SceneIds ids;
+  Equilibrium balance;
+  Points u;
+  Forces forces;
+  std::vector<double> multipliers;
+  BlockMatrix tangent;
+  std::unique_ptr<SpdSolver> solver = make_spd_solver();
+
+  explicit Rest(const Head& head)
+      : balance(make_scene(head, Options{}, ids)),
+        u(Points::Zero(head.brain.node_count(), 3)),
+        forces(balance.forces(u)),
+        multipliers(balance.contacts().size(), 0.0),
+        tangent(balance.blocks().make_matrix()) {
+    balance.tangent(u, forces, multipliers, false, tangent);
+    solver->analyse(tangent);
+    if (!solver->factorise(tangent)) throw Error(ErrorCode::internal, "the head at rest is not stable");
+  }
+  Eigen::Index unknowns() const { return 3 * Eigen::Index(balance.blocks().count()); }
+};
+
+const Rest& rest() {
+  static const Rest at_rest(bench::head());
+  return at_rest;
+}
+
+void yardstick(benchmark::State& state) {
+  const Rest& r = rest();
+  Eigen::MatrixXd x = Eigen::MatrixXd::Ones(r.unknowns(), 1);
+  for (auto _ : state) {
+    r.solver->factorise(r.tangent);
+    r.solver->solve(x);
+    x.setOnes();
+  }
+  state.counters["unknowns"] = double(r.unknowns());
+  state.counters["factor_nonzeros"] = r.solver->factor_nonzeros();
+}
+
+void element_forces(benchmark::State& state, const char* law) {
+  Options options;
+  options.law = law;
+  SceneIds ids;
+  const Equilibrium balance(make_scene(bench::head(), options, ids));
+  Points force = Points::Zero(rest().u.rows(), 3);
+  for (auto _ : state) balance.tissue().internal_force(rest().u, force);
+  state.counters["tets"] = double(bench::head().brain.tet_count());
+}
+
+void tangent(benchmark::State& state, const char* law) {
+  Options options;
+  options.law = law;
+  SceneIds ids;
+  const Equilibrium balance(make_scene(bench::head(), options, ids));
+  const Forces forces = balance.forces(rest().u);
+  BlockMatrix K = balance.blocks().make_matrix();
+  for (auto _ : state) balance.tangent(rest().u, forces, rest().multipliers, false, K);
+}
+
+void waterline(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(rest().balance.external_force(rest().u));
+}
+
+void contact_gaps(benchmark::State& state) {
+  std::vector<GapSample> gaps;
+  for (auto _ : state) rest().balance.contacts().sample(rest().u, gaps);
+  state.counters["rows"] = double(rest().balance.contacts().size());
+}
+
+void reduction(benchmark::State& state) {
+  BlockMatrix A = rest().balance.blocks().make_matrix();
+  for (auto _ : state) {
+    const Reduction fixed(rest().balance.blocks().count(), rest().balance.fixed_rows());
+    fixed.reduce(rest().tangent, 1.0, A);
+  }
+}
+
+void product(benchmark::State& state) {
+  const Eigen::VectorXd x = Eigen::VectorXd::Ones(rest().unknowns());
+  Eigen::VectorXd y;
+  for (auto _ : state) rest().tangent.multiply(x, y);
+}
+
+void analysis(benchmark::State& state) {
+  const auto solver = make_spd_solver();
+  for (auto _ : state) solver->analyse(rest().tangent);
+}
+
+void factor(benchmark::State& state) {
+  for (auto _ : state) rest().solver->factorise(rest().tangent);
+}
+
+void solve(benchmark::State& state) {
+  Eigen::MatrixXd x = Eigen::MatrixXd::Ones(rest().unknowns(), state.range(0));
+  for (auto _ : state) rest().solver->solve(x);
+}
+
+// Points along the planned track, `rows` motions in all: of one lead 100, of two 200.
+void compliance(benchmark::State& state) {
+  const Mesh& mesh = bench::head().brain;
+  const Plan& plan = bench::head().plans.at(right);
+  const auto count = Eigen::Index(state.range(0));
+  Points line((count + 2) / 3, 3);
+  for (Eigen::Index i = 0; i < line.rows(); ++i) {
+    line.row(i) = (plan.target + 45.0 * double(i) / double(line.rows()) * plan.outward).transpose();
+  }
+  const Location at = mesh.locate(line);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index c = 0; c < count; ++c) {
+    const Index tet = at.tet[std::size_t(c / 3)];
+    if (tet < 0) continue;
+    const Interpolation in = mesh.interpolation(tet, at.weights.row(c / 3).transpose());
+    for (std::size_t a = 0; a < std::size_t(in.count); ++a) {
+      const Index block = rest().balance.blocks().block_of()[std::size_t(in.nodes[a])];
+      entries.emplace_back(int(3 * block + c % 3), int(c), in.weights[a]);
+    }
+  }
+  SparseColumns C(rest().unknowns(), count);
+  C.setFromTriplets(entries.begin(), entries.end());
+  for (auto _ : state) benchmark::DoNotOptimize(rest().solver->compliance(C));
+}
+
+// Half of the rows bilateral, half one-sided, as dense as those of leads.
+void complementarity(benchmark::State& state, McpMethod method) {
+  const auto n = Eigen::Index(state.range(0));
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  const auto draw = [&] { return normal(random); };
+  const Eigen::MatrixXd half = Eigen::MatrixXd::NullaryExpr(n, n, draw);
+  const Eigen::MatrixXd M = half * half.transpose() / double(n) + 0.1 * Eigen::MatrixXd::Identity(n, n);
+  const Eigen::VectorXd q = Eigen::VectorXd::NullaryExpr(n, draw);
+  const double inf = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd lower = Eigen::VectorXd::Constant(n, -inf), upper = Eigen::VectorXd::Constant(n, inf);
+  for (Eigen::Index i = 0; i < n; i += 2) lower[i] = 0.0;
+  McpOptions options;
+  options.method = method;
+  for (auto _ : state) {
+    const McpSolution solution = solve_mcp(M, q, lower, upper, options);
+    if (solution.report.status != McpStatus::solved) state.SkipWithError("not solved");
+  }
+}
+
+// Tangent, factor and one solve of a lead bent a little.
+void beam(benchmark::State& state) {
+  const BeamDevice lead = BeamDevice::straight("lead", 300.0, Index(state.range(0)),
+                                               rod_section(1.27, 5000.0, 0.4));
+  const Beam model(lead, Vec3::Zero(), Mat3::Identity());
+  BeamState bent = model.rest();
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(model.dof_count()), gradient;
+  for (Index i = 0; i < model.node_count(); ++i) step[6 * i + 1] = 1e-5 * std::pow(bent.x(i, 0), 2);
+  model.update(bent, step);
+  BlockTridiagonal K(model.node_count());
+  BlockTridiagonalFactor factor;
+  for (auto _ : state) {
+    model.tangent(bent, gradient, K);
+    for (Index dof = 0; dof < 6; ++dof) K.fix(dof);
+    factor.factorise(K);
+    Eigen::MatrixXd x = gradient;
+    factor.solve(x);
+    benchmark::DoNotOptimize(x);
+  }
+}
+
+}  // namespace
+
+BENCHMARK(yardstick)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(element_forces, corotational, "corotational")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(element_forces, st_venant_kirchhoff, "st_venant_kirchhoff")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(element_forces, stable_neo_hookean, "stable_neo_hookean")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tangent, corotational, "corotational")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tangent, stable_neo_hookean, "stable_neo_hookean")->Unit(benchmark::kMillisecond);
+BENCHMARK(waterline)->Unit(benchmark::kMillisecond);
+BENCHMARK(contact_gaps)->Unit(benchmark::kMillisecond);
+BENCHMARK(reduction)->Unit(benchmark::kMillisecond);
+BENCHMARK(product)->Unit(benchmark::kMillisecond);
+BENCHMARK(analysis)->Unit(benchmark::kMillisecond);
+BENCHMARK(factor)->Unit(benchmark::kMillisecond);
+BENCHMARK(solve)->Arg(1)->Arg(16)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK(compliance)->Arg(10)->Arg(30)->Arg(100)->Arg(300)->Arg(1000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(complementarity, newton, brainshift::McpMethod::newton)
+    ->Arg(30)->Arg(100)->Arg(300)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(complementarity, gauss_seidel, brainshift::McpMethod::gauss_seidel)
+    ->Arg(30)->Arg(100)->Arg(300)->Unit(benchmark::kMillisecond);
+BENCHMARK(beam)->Arg(40)->Arg(400)->Unit(benchmark::kMillisecond);

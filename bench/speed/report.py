@@ -1,0 +1,82 @@
+#!/usr/bin/python3
+"""Times in milliseconds and yardsticks. Run by bench/speed/run."""
+import argparse
+import csv
+import json
+import platform
+import re
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = ROOT / "build/release/bench/bench_speed"
+UNIT = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
+
+
+def measure(head, only):
+    command = [PROGRAM, ROOT / "examples/head/data" / head, "--benchmark_out_format=json",
+               f"--benchmark_filter={'^yardstick$|' + only if only else '.'}", "--benchmark_format=json"]
+    text = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+    result = json.loads(text)
+    result["context"].pop("host_name", None)
+    result["context"].pop("executable", None)
+    return result
+
+
+def processor():
+    found = re.search(r"model name\s*:\s*(.*)", Path("/proc/cpuinfo").read_text())
+    return found[1] if found else platform.processor()
+
+
+def add_yardsticks(result, yardstick):
+    for b in result["benchmarks"]:
+        b["milliseconds"] = b["real_time"] * UNIT[b["time_unit"]]
+        b["yardsticks"] = b["milliseconds"] / yardstick
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--head", choices=["coarse", "medium"], default="medium")
+    parser.add_argument("--only", default="")
+    parser.add_argument("--out")
+    parser.add_argument("--write-docs", action="store_true")
+    options = parser.parse_args()
+    result = measure(options.head, options.only)
+    result["context"]["processor"] = processor()
+    own = next(b for b in result["benchmarks"] if b["name"] == "yardstick")
+    yardstick = own["real_time"] * UNIT[own["time_unit"]]
+    if options.head != "medium":
+        of_medium = measure("medium", "^yardstick$")["benchmarks"][0]
+        yardstick = of_medium["real_time"] * UNIT[of_medium["time_unit"]]
+    add_yardsticks(result, yardstick)
+    out = ROOT / "out/speed"
+    out.mkdir(parents=True, exist_ok=True)
+    name = options.out or options.head
+    (out / f"{name}.json").write_text(json.dumps(result, indent=1) + "\n")
+    with (out / f"{name}.csv").open("w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["benchmark", "milliseconds", "yardsticks"])
+        writer.writerows([b["name"], b["milliseconds"], b["yardsticks"]] for b in result["benchmarks"])
+    lines = table(result)
+    print("\n".join(lines))
+    if options.write_docs:
+        page = ["# Speed", "", "Written by `bench/speed/run --write-docs`. A yardstick is one numeric factor and one",
+                "solve of the stiffness of both halves of the medium head as one system, one thread, in the",
+                "same run.", "", *lines]
+        (ROOT / "docs/speed.md").write_text("\n".join(page) + "\n")
+
+
+def table(result):
+    c = result["context"]
+    lines = [f"{c['head']}: {c['nodes']} nodes, {c['tets']} tets. {c['processor']}, {c['num_cpus']} cores; "
+             f"{c['blas'].strip()}; compiler {c['compiler']}.", "",
+             "| | ms | yardsticks | Newton iterations | factors |", "|---|---|---|---|---|"]
+    for b in result["benchmarks"]:
+        name = re.sub(r"/iterations:\d+|/real_time", "", b["name"])
+        work = [f"{b[k]:.0f}" if k in b else "" for k in ("iterations_of_newton", "factorisations")]
+        lines.append(f"| {name} | {b['milliseconds']:.4g} | {b['yardsticks']:.3g} | {work[0]} | {work[1]} |")
+    return lines
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,89 @@
+// Whole solves on a head: fluid lost, the procedure of both sides, and another trajectory for one of them.
+#include <benchmark/benchmark.h>
+
+#include "procedure.hpp"
+#include "speed/heads.hpp"
+
+namespace {
+
+using namespace dbs;
+
+Options quiet(int threads) {
+  Options options;
+  options.threads = threads;
+  options.quiet = true;
+  return options;
+}
+
+struct Work {
+  int solves = 0, iterations = 0, factorisations = 0;
+  void add(const SolveReport& report) {
+    if (!report.converged()) throw Error(ErrorCode::internal, "a stage found no balance: " + report.message);
+    ++solves;
+    iterations += report.iterations;
+    factorisations += report.factorisations;
+  }
+  void tell(benchmark::State& state) const {
+    state.counters["solves"] = solves;
+    state.counters["iterations_of_newton"] = iterations;
+    state.counters["factorisations"] = factorisations;
+  }
+};
+
+Work run_all(Procedure& procedure, const std::vector<Stage>& plan) {
+  Work work;
+  for (const Stage& stage : plan) work.add(procedure.run(stage).report);
+  return work;
+}
+
+// 20 mL lost on each side, no devices; from files to the last stage but for reading them.
+void csf_loss(benchmark::State& state) {
+  Options options = quiet(int(state.range(0)));
+  options.devices = false;
+  Work work;
+  for (auto _ : state) {
+    Procedure procedure(bench::head(), options);
+    work = run_all(procedure, procedure.plan());
+  }
+  work.tell(state);
+}
+
+void procedure_of_both_sides(benchmark::State& state) {
+  Work work;
+  for (auto _ : state) {
+    Procedure procedure(bench::head(), quiet(int(state.range(0))));
+    work = run_all(procedure, procedure.plan());
+  }
+  work.tell(state);
+}
+
+// Stages 2 to 5 of the right side once more, two millimetres beside, from the state after stage 1.
+void what_if(benchmark::State& state) {
+  Options options = quiet(int(state.range(0)));
+  options.sides = "right";
+  Procedure procedure(bench::head(), options);
+  const std::vector<Stage> plan = procedure.plan();
+  std::size_t done = 0;
+  for (; done < plan.size() && plan[done].label != "2"; ++done) procedure.run(plan[done]);
+  const auto before = procedure.branch();
+  double beside = 0.0;
+  Work work;
+  for (auto _ : state) {
+    procedure.go_back_to(before);
+    beside += 2.0;
+    options.offset_right = {beside, 0.0, 0.0};
+    procedure.replan(options);
+    work = {};
+    for (const Stage& stage : procedure.plan()) {
+      if (stage.label < "2" || stage.label > "5") continue;
+      work.add(procedure.run(stage).report);
+    }
+  }
+  work.tell(state);
+}
+
+}  // namespace
+
+BENCHMARK(csf_loss)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->Iterations(1)->UseRealTime();
+BENCHMARK(procedure_of_both_sides)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->Iterations(1)->UseRealTime();
+BENCHMARK(what_if)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->Iterations(1)->UseRealTime();

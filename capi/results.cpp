@@ -1,4 +1,4 @@
-// What a stepper answers: fields, points, compartments, contacts.
+// What a stepper answers: fields, points, errors, compartments, contacts.
 #include "arrays.hpp"
 #include "structs.hpp"
 
@@ -95,6 +95,18 @@ brs_status brs_stepper_displacement_at(brs_stepper* stepper, const double* point
 brs_status brs_stepper_rest_points_of(brs_stepper* stepper, const double* points, int64_t count,
                                       double* values, int32_t* tets) {
   return at_points(stepper, &Stepper::rest_points_of, points, count, values, tets);
+}
+
+brs_status brs_stepper_estimate_error(brs_stepper* stepper, const double* points, int64_t count,
+                                      double* errors, double* corrections) {
+  return guard(stepper, [&](brs_stepper& s) -> brs_status {
+    const auto asked = rows<Points>(points, count, "points");
+    require_array(errors, count, "errors");
+    const ErrorEstimate found = s.value.estimate_error(asked);
+    write_array(found.error, errors);
+    if (corrections) write_array(found.correction, corrections);
+    return remark_outside(*s.context, found.error.array().isNaN().count(), found.error.size());
+  });
 }
 
 brs_status brs_compartment_state_init(brs_compartment_state* state, int64_t struct_size) {

@@ -163,6 +163,48 @@ TEST(Memory, RunningOutWithADeviceInTimeOrInBytesLeavesTheStateAsItWas) {
   EXPECT_EQ(w.field(BRS_FIELD_DISPLACEMENT), moved);
 }
 
+TEST(Memory, RunningOutOnTheWayToQuadraticTetsIsAStatus) {
+  World w;
+  brs_mesh* mesh = nullptr;
+  brs_scene* scene = nullptr;
+  EXPECT_GT(fail_each_allocation("mesh",
+                                 [&] {
+                                   brs_mesh_destroy(mesh);
+                                   return brs_mesh_quadratic(w.mesh, &mesh);
+                                 }),
+            0);
+  EXPECT_GT(fail_each_allocation("scene",
+                                 [&] {
+                                   brs_scene_destroy(scene);
+                                   return brs_scene_quadratic(w.scene, &scene);
+                                 }),
+            0);
+  brs_scene_destroy(scene);
+  brs_mesh_destroy(mesh);
+}
+
+TEST(Memory, RunningOutWhileAnswersAreComputedLeavesTheStateAsItWas) {
+  World w;
+  w.good(w.solve_after_loss(5000.0));
+  const std::vector<double> before = w.field(BRS_FIELD_DISPLACEMENT);
+  const double point[] = {15.0, 15.0, 29.0};
+  double error = -1.0;
+  EXPECT_GT(fail_each_allocation(
+                "estimate",
+                [&] { return brs_stepper_estimate_error(w.stepper, point, 1, &error, nullptr); }),
+            10);
+  EXPECT_GT(error, 0.0);
+  EXPECT_EQ(w.field(BRS_FIELD_DISPLACEMENT), before);
+  const double matrix[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-1.0, -2.0}, lower[] = {0.0, 0.0},
+               upper[] = {9.0, 9.0};
+  double z[2] = {};
+  fail_each_allocation("mcp", [&] {
+    return brs_mcp_solve(w.context, matrix, q, lower, upper, 2, nullptr, z, nullptr, nullptr,
+                         nullptr);
+  });
+  EXPECT_NEAR(z[1], 1.0, 1e-12);
+}
+
 TEST(Memory, RunningOutWhileAConstraintIsAddedAddsNone) {
   World w;
   std::int32_t first = -1, last = -1;

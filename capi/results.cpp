@@ -69,9 +69,11 @@ brs_compartment_state compartment_state_of(const CompartmentState& c) {
           c.open ? 1 : 0};
 }
 
-brs_contact_state contact_state_of(const ContactState& c) {
-  return {sizeof(brs_contact_state), c.gap.size(),  c.active, c.gap.data(),
-          c.multiplier.data(),       c.force.data()};
+brs_contact_state contact_state_of(const ContactState& c, const ConstraintGroup& group) {
+  return {
+      sizeof(brs_contact_state), c.gap.size(),   c.active,           c.gap.data(),
+      c.multiplier.data(),       c.force.data(), group.nodes.data(), int64_t(group.partners.size()),
+      group.partners.data()};
 }
 
 }  // namespace
@@ -122,7 +124,7 @@ brs_status brs_stepper_compartment(brs_stepper* stepper, int32_t compartment,
 }
 
 brs_status brs_contact_state_init(brs_contact_state* state, int64_t struct_size) {
-  return init(state, struct_size, contact_state_of(ContactState()));
+  return init(state, struct_size, contact_state_of(ContactState(), ConstraintGroup()));
 }
 
 brs_status brs_stepper_contact(brs_stepper* stepper, int32_t id, brs_contact_state* state) {
@@ -131,6 +133,6 @@ brs_status brs_stepper_contact(brs_stepper* stepper, int32_t id, brs_contact_sta
     ContactState found = s.value.contact(id);
     ContactState& kept = s.contacts[id];
     kept = std::move(found);
-    write(state, contact_state_of(kept), "state");
+    write(state, contact_state_of(kept, s.value.constraints().group(id)), "state");
   });
 }

@@ -651,8 +651,11 @@ class ContactState(Struct):
                 ('active', c_int64),
                 ('gap_pointer', POINTER(c_double)),
                 ('multiplier_pointer', POINTER(c_double)),
-                ('force_pointer', POINTER(c_double))]
-    _names = ['active', 'gap', 'multiplier', 'force']
+                ('force_pointer', POINTER(c_double)),
+                ('nodes_pointer', POINTER(c_int32)),
+                ('partner_count', c_int64),
+                ('partners_pointer', POINTER(c_int32))]
+    _names = ['active', 'gap', 'multiplier', 'force', 'nodes', 'partners']
 
     @property
     def gap(self):
@@ -680,6 +683,24 @@ class ContactState(Struct):
     @force.setter
     def force(self, values):
         self._set_array('force', 'count', c_double, 3, values)
+
+    @property
+    def nodes(self):
+        pointer = self.nodes_pointer
+        return _view(pointer, c_int32, self.count, 1, self._owner)
+
+    @nodes.setter
+    def nodes(self, values):
+        self._set_array('nodes', 'count', c_int32, 1, values)
+
+    @property
+    def partners(self):
+        pointer = self.partners_pointer
+        return _view(pointer, c_int32, self.partner_count, 1, self._owner)
+
+    @partners.setter
+    def partners(self, values):
+        self._set_array('partners', 'partner_count', c_int32, 1, values)
 
 
 class DeviceState(Struct):

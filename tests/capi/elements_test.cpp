@@ -153,6 +153,8 @@ TEST_F(Elements, OfQuadraticScenesSolveAsInCpp) {
   brs_contact_state_init(&contact, sizeof contact);
   w.good(brs_stepper_contact(w.stepper, w.contact, &contact));
   EXPECT_GT(contact.count, std::int64_t(w.sides.size()));
+  EXPECT_EQ(Indices(contact.nodes, contact.nodes + contact.count),
+            quadratic(cpp_scene()).constraints.group(w.contact).nodes);
   w.good(brs_scene_set_volume_strain(scene, BRS_VOLUME_STRAIN_NODAL));
   brs_stepper* none = w.stepper;
   EXPECT_EQ(brs_stepper_create(scene, nullptr, &none), BRS_ERROR_INVALID_ARGUMENT);

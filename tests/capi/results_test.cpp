@@ -70,6 +70,8 @@ TEST_F(Results, OfFluidAndContactAreThoseOfTheCppLibrary) {
   w.good(brs_stepper_contact(w.stepper, w.contact, &contact));
   ASSERT_EQ(contact.count, sides.gap.size());
   EXPECT_EQ(contact.active, sides.active);
+  EXPECT_EQ(Indices(contact.nodes, contact.nodes + contact.count), side_nodes());
+  EXPECT_EQ(contact.partner_count, 0);
   EXPECT_EQ(std::memcmp(contact.gap, sides.gap.data(), std::size_t(contact.count) * 8), 0);
   EXPECT_EQ(
       std::memcmp(contact.multiplier, sides.multiplier.data(), std::size_t(contact.count) * 8), 0);

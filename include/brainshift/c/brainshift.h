@@ -651,6 +651,9 @@ typedef struct brs_contact_state {
   const double* gap;        /* count, mm; NaN for rows that are not in the scene */
   const double* multiplier; /* count, mN */
   const double* force;      /* count x 3, mN, on the nodes (partners feel the opposite) */
+  const int32_t* nodes;     /* count; of a quadratic scene with those on edges */
+  int64_t partner_count;    /* count of an opposing group, or 0 */
+  const int32_t* partners;  /* partner_count */
 } brs_contact_state;
 
 BRS_API brs_status brs_contact_state_init(brs_contact_state* state, int64_t struct_size);

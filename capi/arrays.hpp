@@ -18,6 +18,14 @@ inline Index checked_count(std::int64_t count, const char* what) {
   return Index(count);
 }
 
+// An option that is an int in the library; none of them may be negative.
+inline int checked_int(std::int64_t value, const char* what) {
+  if (value < 0 || value > std::numeric_limits<int>::max())
+    throw Refusal(BRS_ERROR_INVALID_ARGUMENT,
+                  what + (" is " + std::to_string(value)) + ", negative or too large");
+  return int(value);
+}
+
 inline void require_array(const void* values, std::int64_t count, const char* what) {
   if (!values && count > 0)
     throw Refusal(BRS_ERROR_NULL,
@@ -73,13 +81,17 @@ inline Vec3 vector3(const double* values, const char* what) {
 }
 
 // The remark of functions that look for points in the mesh.
-inline brs_status remark_outside(Context& context, const Indices& tets) {
-  const auto outside = std::count(tets.begin(), tets.end(), -1);
+inline brs_status remark_outside(Context& context, Eigen::Index outside, Eigen::Index points) {
   if (outside == 0) return BRS_OK;
-  const std::string remark = std::to_string(outside) + " of " + std::to_string(tets.size()) +
-                             " points lie outside the mesh";
+  const std::string remark =
+      std::to_string(outside) + " of " + std::to_string(points) + " points lie outside the mesh";
   context.say(remark.c_str());
   return BRS_OUTSIDE;
+}
+
+inline brs_status remark_outside(Context& context, const Indices& tets) {
+  return remark_outside(context, std::count(tets.begin(), tets.end(), -1),
+                        Eigen::Index(tets.size()));
 }
 
 inline std::string text(const char* characters, const char* what) {

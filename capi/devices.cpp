@@ -29,6 +29,11 @@ void write_section(const BeamSection& s, double* section) {
   std::memcpy(&result(section, "section"), columns, sizeof columns);
 }
 
+const double* view_of_contacts(const std::vector<Contact>& contacts) {
+  static_assert(sizeof(Contact) == 2 * sizeof(double));
+  return contacts.empty() ? nullptr : &contacts.front().from;
+}
+
 brs_device_options device_defaults() {
   const DeviceOptions d;
   return {sizeof(brs_device_options), d.element_size, d.bending, d.density};
@@ -118,7 +123,7 @@ brs_status brs_device_describe(brs_device* device, brs_device_info* info) {
     write(info,
           brs_device_info{sizeof(brs_device_info), v.name().c_str(), v.length(), v.node_count(),
                           int64_t(v.contacts().size()), v.nodes().data(), v.arcs().data(),
-                          view_of_frames(v.frames())},
+                          view_of_frames(v.frames()), view_of_contacts(v.contacts())},
           "info");
   });
 }

@@ -19,13 +19,14 @@ Hold hold_of(const brs_hold* given) {
 
 brs_track_options track_defaults() {
   const TrackOptions d;
-  return {sizeof(brs_track_options), d.shear_bound, d.tip_bound, d.least_spacing};
+  return {sizeof(brs_track_options), d.shear_bound, d.tip_bound, d.least_spacing,
+          d.local_give ? 1 : 0};
 }
 
 TrackOptions track_of(const brs_track_options* given) {
   brs_track_options t = track_defaults();
   if (given) t = read(given, t, "options");
-  return {t.shear_bound, t.tip_bound, t.least_spacing};
+  return {t.shear_bound, t.tip_bound, t.least_spacing, t.local_give != 0};
 }
 
 brs_device_state state_of(const DeviceState& d) {

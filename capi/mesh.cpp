@@ -14,6 +14,20 @@ brs_surface_options surface_defaults() {
   return {sizeof(brs_surface_options), defaults.grid_spacing, defaults.band};
 }
 
+Indices labels(const int32_t* regions, int64_t tet_count) {
+  return regions ? indices(regions, tet_count, "regions") : Indices();
+}
+
+EdgeNodes in_order(int32_t edges, EdgeNodes edge_nodes) {
+  switch (edges) {
+    case BRS_EDGES_VTK: return edge_nodes;
+    case BRS_EDGES_GMSH: return from_gmsh_order(std::move(edge_nodes));
+    default:
+      throw Refusal(BRS_ERROR_INVALID_ARGUMENT,
+                    "there is no order of edges with the number " + std::to_string(edges));
+  }
+}
+
 Surface make_surface(int32_t kind, Points points, Triangles triangles, SurfaceOptions options) {
   switch (kind) {
     case BRS_SURFACE_CAVITY:
@@ -31,15 +45,29 @@ brs_status brs_mesh_create(brs_context* context, const double* nodes, int64_t no
                            const int32_t* tets, int64_t tet_count, const int32_t* regions,
                            int32_t orient, brs_mesh** mesh) {
   return create(context, mesh, "mesh", [&](brs_context& c) {
-    auto points = rows<Points>(nodes, node_count, "nodes");
-    auto elements = rows<Tets>(tets, tet_count, "tets");
-    Indices labels;
-    if (regions) labels = indices(regions, tet_count, "regions");
-    MeshOptions options;
-    options.orient = orient != 0;
-    return new brs_mesh(c.context,
-                        Mesh(std::move(points), std::move(elements), std::move(labels), options));
+    return new brs_mesh(c.context, Mesh(rows<Points>(nodes, node_count, "nodes"),
+                                        rows<Tets>(tets, tet_count, "tets"),
+                                        labels(regions, tet_count), {orient != 0}));
   });
+}
+
+brs_status brs_mesh_create_quadratic(brs_context* context, const double* nodes, int64_t node_count,
+                                     const int32_t* tets, const int32_t* edge_nodes,
+                                     int64_t tet_count, int32_t edges, const int32_t* regions,
+                                     int32_t orient, brs_mesh** mesh) {
+  return create(context, mesh, "mesh", [&](brs_context& c) {
+    return new brs_mesh(
+        c.context,
+        Mesh::with_edge_nodes(
+            rows<Points>(nodes, node_count, "nodes"), rows<Tets>(tets, tet_count, "tets"),
+            in_order(edges, rows<EdgeNodes>(edge_nodes, tet_count, "tets of edge nodes")),
+            labels(regions, tet_count), {orient != 0}));
+  });
+}
+
+brs_status brs_mesh_quadratic(brs_mesh* mesh, brs_mesh** quadratic) {
+  return create(mesh, quadratic, "quadratic",
+                [](brs_mesh& m) { return new brs_mesh(m.context, m.value.quadratic()); });
 }
 
 brs_status brs_mesh_destroy(brs_mesh* mesh) { return destroy_immutable(mesh); }
@@ -78,11 +106,14 @@ brs_status brs_mesh_info_init(brs_mesh_info* info, int64_t struct_size) {
 brs_status brs_mesh_describe(brs_mesh* mesh, brs_mesh_info* info) {
   return guard(mesh, [&](brs_mesh& m) {
     const Mesh& v = m.value;
-    write(info,
-          brs_mesh_info{sizeof(brs_mesh_info), v.node_count(), v.tet_count(), v.component_count(),
-                        v.reoriented(), v.volume(), v.diameter(), v.nodes().data(), v.tets().data(),
-                        v.regions().data(), v.components().data()},
-          "info");
+    write(
+        info,
+        brs_mesh_info{sizeof(brs_mesh_info), v.node_count(), v.tet_count(), v.component_count(),
+                      v.reoriented(), v.volume(), v.diameter(), v.nodes().data(), v.tets().data(),
+                      v.regions().data(), v.components().data(), v.surface().rows(),
+                      v.surface_tets().data(), v.edge_nodes().rows(), v.surface_edge_nodes().rows(),
+                      v.edge_nodes().data(), v.surface_edge_nodes().data()},
+        "info");
   });
 }
 

@@ -1,4 +1,4 @@
-// What a stepper answers: fields, points, compartments, contacts.
+// What a stepper answers: fields, points, errors, compartments, contacts.
 #include "arrays.hpp"
 #include "structs.hpp"
 
@@ -69,9 +69,11 @@ brs_compartment_state compartment_state_of(const CompartmentState& c) {
           c.open ? 1 : 0};
 }
 
-brs_contact_state contact_state_of(const ContactState& c) {
-  return {sizeof(brs_contact_state), c.gap.size(),  c.active, c.gap.data(),
-          c.multiplier.data(),       c.force.data()};
+brs_contact_state contact_state_of(const ContactState& c, const ConstraintGroup& group) {
+  return {
+      sizeof(brs_contact_state), c.gap.size(),   c.active,           c.gap.data(),
+      c.multiplier.data(),       c.force.data(), group.nodes.data(), int64_t(group.partners.size()),
+      group.partners.data()};
 }
 
 }  // namespace
@@ -97,6 +99,18 @@ brs_status brs_stepper_rest_points_of(brs_stepper* stepper, const double* points
   return at_points(stepper, &Stepper::rest_points_of, points, count, values, tets);
 }
 
+brs_status brs_stepper_estimate_error(brs_stepper* stepper, const double* points, int64_t count,
+                                      double* errors, double* corrections) {
+  return guard(stepper, [&](brs_stepper& s) -> brs_status {
+    const auto asked = rows<Points>(points, count, "points");
+    require_array(errors, count, "errors");
+    const ErrorEstimate found = s.value.estimate_error(asked);
+    write_array(found.error, errors);
+    if (corrections) write_array(found.correction, corrections);
+    return remark_outside(*s.context, found.error.array().isNaN().count(), found.error.size());
+  });
+}
+
 brs_status brs_compartment_state_init(brs_compartment_state* state, int64_t struct_size) {
   return init(state, struct_size, compartment_state_of(CompartmentState()));
 }
@@ -110,7 +124,7 @@ brs_status brs_stepper_compartment(brs_stepper* stepper, int32_t compartment,
 }
 
 brs_status brs_contact_state_init(brs_contact_state* state, int64_t struct_size) {
-  return init(state, struct_size, contact_state_of(ContactState()));
+  return init(state, struct_size, contact_state_of(ContactState(), ConstraintGroup()));
 }
 
 brs_status brs_stepper_contact(brs_stepper* stepper, int32_t id, brs_contact_state* state) {
@@ -119,6 +133,6 @@ brs_status brs_stepper_contact(brs_stepper* stepper, int32_t id, brs_contact_sta
     ContactState found = s.value.contact(id);
     ContactState& kept = s.contacts[id];
     kept = std::move(found);
-    write(state, contact_state_of(kept), "state");
+    write(state, contact_state_of(kept, s.value.constraints().group(id)), "state");
   });
 }

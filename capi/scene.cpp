@@ -1,6 +1,7 @@
-// Scene: materials, gravity, CSF.
+// Scene: materials, elements, gravity, CSF.
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 #include "arrays.hpp"
 #include "structs.hpp"
@@ -29,6 +30,16 @@ FluidModel model_of(int32_t model) {
     default:
       throw Refusal(BRS_ERROR_INVALID_ARGUMENT,
                     "there is no fluid model with the number " + std::to_string(model));
+  }
+}
+
+VolumeStrain volume_strain_of(int32_t number) {
+  switch (number) {
+    case BRS_VOLUME_STRAIN_ELEMENT: return VolumeStrain::element;
+    case BRS_VOLUME_STRAIN_NODAL: return VolumeStrain::nodal;
+    default:
+      throw Refusal(BRS_ERROR_INVALID_ARGUMENT,
+                    "there is no volume strain with the number " + std::to_string(number));
   }
 }
 
@@ -77,6 +88,20 @@ brs_status brs_scene_set_gravity(brs_scene* scene, const double* gravity) {
 
 brs_status brs_scene_set_balanced_reference(brs_scene* scene, int32_t balanced) {
   return guard(scene, [&](brs_scene& s) { s.value.balanced_reference = balanced != 0; });
+}
+
+brs_status brs_scene_set_volume_strain(brs_scene* scene, int32_t volume_strain) {
+  return guard(scene,
+               [&](brs_scene& s) { s.value.volume_strain = volume_strain_of(volume_strain); });
+}
+
+brs_status brs_scene_quadratic(brs_scene* scene, brs_scene** quadratic) {
+  return create(scene, quadratic, "quadratic", [](brs_scene& s) {
+    auto made =
+        std::make_unique<brs_scene>(s);  // compartments hold faces, which keep their numbers
+    made->value = brainshift::quadratic(s.value);
+    return made.release();
+  });
 }
 
 brs_status brs_scene_set_csf(brs_scene* scene, double density, int32_t model,

@@ -1,6 +1,5 @@
 // Stepper: options, settings, snapshots, bytes.
 #include <functional>
-#include <limits>
 
 #include "arrays.hpp"
 #include "structs.hpp"
@@ -40,21 +39,14 @@ std::function<bool(const Progress&)> progress_of(std::shared_ptr<Context> contex
 }
 
 StepperOptions options_of(const brs_stepper_options& given, std::shared_ptr<Context> context) {
-  if (given.max_iterations < 0 || given.max_iterations > std::numeric_limits<int>::max())
-    throw Refusal(BRS_ERROR_INVALID_ARGUMENT, "options->max_iterations is " +
-                                                  std::to_string(given.max_iterations) +
-                                                  ", negative or too large");
-  if (given.threads < 0 || given.threads > std::numeric_limits<int>::max())
-    throw Refusal(
-        BRS_ERROR_INVALID_ARGUMENT,
-        "options->threads is " + std::to_string(given.threads) + ", negative or too large");
   StepperOptions options;
-  options.threads = given.threads > 0 ? int(given.threads) : context->threads;
+  const int threads = checked_int(given.threads, "options->threads");
+  options.threads = threads > 0 ? threads : context->threads;
   options.time_limit = given.time_limit;
   options.residual_tolerance = given.residual_tolerance;
   options.complementarity_tolerance = given.complementarity_tolerance;
   options.correction_tolerance = given.correction_tolerance;
-  options.max_iterations = int(given.max_iterations);
+  options.max_iterations = checked_int(given.max_iterations, "options->max_iterations");
   options.smallest_load_step = given.smallest_load_step;
   options.initial_penetration = given.initial_penetration;
   options.progress = progress_of(std::move(context));
@@ -99,6 +91,11 @@ brs_status brs_stepper_create(brs_scene* scene, const brs_stepper_options* optio
 }
 
 brs_status brs_stepper_destroy(brs_stepper* stepper) { return destroy(stepper); }
+
+brs_status brs_stepper_mesh(brs_stepper* stepper, brs_mesh** mesh) {
+  return create(stepper, mesh, "mesh",
+                [](brs_stepper& s) { return new brs_mesh(s.context, s.value.mesh()); });
+}
 
 brs_status brs_stepper_set_gravity(brs_stepper* stepper, const double* gravity) {
   return guard(stepper, [&](brs_stepper& s) { s.value.set_gravity(vector3(gravity, "gravity")); });

@@ -25,7 +25,6 @@ template <>
 inline constexpr std::int64_t first_size<brs_compartment_state> = 56;
 template <>
 inline constexpr std::int64_t first_size<brs_contact_state> = 48;
-
 template <>
 inline constexpr std::int64_t first_size<brs_mesh_info> = 88;
 template <>
@@ -40,6 +39,10 @@ template <>
 inline constexpr std::int64_t first_size<brs_track_options> = 32;
 template <>
 inline constexpr std::int64_t first_size<brs_device_state> = 168;
+template <>
+inline constexpr std::int64_t first_size<brs_mcp_options> = 56;
+template <>
+inline constexpr std::int64_t first_size<brs_mcp_report> = 56;
 
 template <class T>
 bool known_size(std::int64_t size) noexcept {

@@ -21,6 +21,7 @@ NOT_CONVERGED = 1
 NO_EQUILIBRIUM = 2
 CANCELLED = 3
 OUTSIDE = 4
+INFEASIBLE = 5
 ERROR_NULL = -1
 ERROR_HANDLE = -2
 ERROR_SIZE = -3
@@ -46,8 +47,12 @@ ERROR_RIGID_MODE = -32
 ERROR_FLUID_VOLUME = -33
 ERROR_LINEAR_SOLVER = -34
 ERROR_FILE = -35
+EDGES_VTK = 0
+EDGES_GMSH = 1
 SURFACE_CAVITY = 0
 SURFACE_SHEET = 1
+VOLUME_STRAIN_ELEMENT = 0
+VOLUME_STRAIN_NODAL = 1
 CSF_SEPARATE = 0
 CSF_COMMUNICATING = 1
 AXIS_X = 1
@@ -84,6 +89,10 @@ FIELD_FLUID_FORCE = 6
 FIELD_EXTERNAL_FORCE = 7
 FIELD_VELOCITY = 8
 FIELD_ITERATE = 9
+MCP_AUTOMATIC = 0
+MCP_NEWTON = 1
+MCP_PIVOTING = 2
+MCP_GAUSS_SEIDEL = 3
 
 
 class Error(Exception):
@@ -95,11 +104,13 @@ class Error(Exception):
 
 
 class NotSolved(Error):
-    """A solve that found no balance or was stopped; the state is the one before. `report` says more."""
+    """A solve that found no balance or was stopped; the state is the one before. `report` says more;
+    it is the last of `results`, which the call would have returned."""
 
-    def __init__(self, status, message, report):
+    def __init__(self, status, message, results):
         super().__init__(status, message)
-        self.report = report
+        self.results = results
+        self.report = results[-1]
 
 
 def _load():
@@ -120,6 +131,13 @@ def _array(values, dtype, columns, name):
         raise ValueError(f'{name} must have {columns} columns, not the shape {array.shape}')
     if columns == 1 and array.ndim != 1:
         raise ValueError(f'{name} must have one dimension, not the shape {array.shape}')
+    return array
+
+
+def _square(values, dtype, name):
+    array = np.ascontiguousarray(values, dtype=dtype)
+    if array.size > 0 and (array.ndim != 2 or array.shape[0] != array.shape[1]):
+        raise ValueError(f'{name} must be square, not of the shape {array.shape}')
     return array
 
 
@@ -203,7 +221,7 @@ class Handle:
             except Error:
                 pass   # from a callback of its own context
 
-    def _call(self, function, *arguments, report=None):
+    def _call(self, function, *arguments, results=None):
         """Calls; raises what a callback has raised, or an Error. Returns the status."""
         context = self._context
         status = getattr(_library, function)(*arguments)
@@ -213,8 +231,8 @@ class Handle:
             raise raised
         if status < 0:
             raise Error(status, context.message)
-        if status in (NOT_CONVERGED, NO_EQUILIBRIUM, CANCELLED) and report is not None:
-            raise NotSolved(status, context.message, report)
+        if results and status in (NOT_CONVERGED, NO_EQUILIBRIUM, CANCELLED, INFEASIBLE):
+            raise NotSolved(status, context.message, results)
         return status
 
 
@@ -278,8 +296,14 @@ class MeshInfo(Struct):
                 ('nodes_pointer', POINTER(c_double)),
                 ('tets_pointer', POINTER(c_int32)),
                 ('regions_pointer', POINTER(c_int32)),
-                ('components_pointer', POINTER(c_int32))]
-    _names = ['component_count', 'reoriented', 'volume', 'diameter', 'nodes', 'tets', 'regions', 'components']
+                ('components_pointer', POINTER(c_int32)),
+                ('surface_count', c_int64),
+                ('surface_tets_pointer', POINTER(c_int32)),
+                ('quadratic_tet_count', c_int64),
+                ('quadratic_face_count', c_int64),
+                ('edge_nodes_pointer', POINTER(c_int32)),
+                ('surface_edge_nodes_pointer', POINTER(c_int32))]
+    _names = ['component_count', 'reoriented', 'volume', 'diameter', 'nodes', 'tets', 'regions', 'components', 'surface_tets', 'edge_nodes', 'surface_edge_nodes']
 
     @property
     def nodes(self):
@@ -316,6 +340,33 @@ class MeshInfo(Struct):
     @components.setter
     def components(self, values):
         self._set_array('components', 'node_count', c_int32, 1, values)
+
+    @property
+    def surface_tets(self):
+        pointer = self.surface_tets_pointer
+        return _view(pointer, c_int32, self.surface_count, 1, self._owner)
+
+    @surface_tets.setter
+    def surface_tets(self, values):
+        self._set_array('surface_tets', 'surface_count', c_int32, 1, values)
+
+    @property
+    def edge_nodes(self):
+        pointer = self.edge_nodes_pointer
+        return _view(pointer, c_int32, self.quadratic_tet_count, 6, self._owner)
+
+    @edge_nodes.setter
+    def edge_nodes(self, values):
+        self._set_array('edge_nodes', 'quadratic_tet_count', c_int32, 6, values)
+
+    @property
+    def surface_edge_nodes(self):
+        pointer = self.surface_edge_nodes_pointer
+        return _view(pointer, c_int32, self.quadratic_face_count, 3, self._owner)
+
+    @surface_edge_nodes.setter
+    def surface_edge_nodes(self, values):
+        self._set_array('surface_edge_nodes', 'quadratic_face_count', c_int32, 3, values)
 
 
 class SurfaceOptions(Struct):
@@ -463,8 +514,9 @@ class DeviceInfo(Struct):
                 ('contact_count', c_int64),
                 ('nodes_pointer', POINTER(c_double)),
                 ('arcs_pointer', POINTER(c_double)),
-                ('frames_pointer', POINTER(c_double))]
-    _names = ['name', 'length', 'contact_count', 'nodes', 'arcs', 'frames']
+                ('frames_pointer', POINTER(c_double)),
+                ('contacts_pointer', POINTER(c_double))]
+    _names = ['name', 'length', 'nodes', 'arcs', 'frames', 'contacts']
 
     @property
     def name(self):
@@ -502,6 +554,15 @@ class DeviceInfo(Struct):
     def frames(self, values):
         self._set_array('frames', 'node_count', c_double, 9, values)
 
+    @property
+    def contacts(self):
+        pointer = self.contacts_pointer
+        return _view(pointer, c_double, self.contact_count, 2, self._owner)
+
+    @contacts.setter
+    def contacts(self, values):
+        self._set_array('contacts', 'contact_count', c_double, 2, values)
+
 
 class StepperOptions(Struct):
     """brs_stepper_options of the header; its fields are described there."""
@@ -535,8 +596,9 @@ class TrackOptions(Struct):
     _fields_ = [('struct_size', c_int64),
                 ('shear_bound', c_double),
                 ('tip_bound', c_double),
-                ('least_spacing', c_double)]
-    _names = ['shear_bound', 'tip_bound', 'least_spacing']
+                ('least_spacing', c_double),
+                ('local_give', c_int64)]
+    _names = ['shear_bound', 'tip_bound', 'least_spacing', 'local_give']
 
 
 class SolveReport(Struct):
@@ -589,8 +651,11 @@ class ContactState(Struct):
                 ('active', c_int64),
                 ('gap_pointer', POINTER(c_double)),
                 ('multiplier_pointer', POINTER(c_double)),
-                ('force_pointer', POINTER(c_double))]
-    _names = ['active', 'gap', 'multiplier', 'force']
+                ('force_pointer', POINTER(c_double)),
+                ('nodes_pointer', POINTER(c_int32)),
+                ('partner_count', c_int64),
+                ('partners_pointer', POINTER(c_int32))]
+    _names = ['active', 'gap', 'multiplier', 'force', 'nodes', 'partners']
 
     @property
     def gap(self):
@@ -618,6 +683,24 @@ class ContactState(Struct):
     @force.setter
     def force(self, values):
         self._set_array('force', 'count', c_double, 3, values)
+
+    @property
+    def nodes(self):
+        pointer = self.nodes_pointer
+        return _view(pointer, c_int32, self.count, 1, self._owner)
+
+    @nodes.setter
+    def nodes(self, values):
+        self._set_array('nodes', 'count', c_int32, 1, values)
+
+    @property
+    def partners(self):
+        pointer = self.partners_pointer
+        return _view(pointer, c_int32, self.partner_count, 1, self._owner)
+
+    @partners.setter
+    def partners(self, values):
+        self._set_array('partners', 'partner_count', c_int32, 1, values)
 
 
 class DeviceState(Struct):
@@ -706,6 +789,32 @@ class DeviceState(Struct):
         self._set_array('path_forces', 'path_count', c_double, 3, values)
 
 
+class McpOptions(Struct):
+    """brs_mcp_options of the header; its fields are described there."""
+    _init = 'brs_mcp_options_init'
+    _fields_ = [('struct_size', c_int64),
+                ('method', c_int64),
+                ('noise', c_double),
+                ('tolerance', c_double),
+                ('max_iterations', c_int64),
+                ('max_pivots', c_int64),
+                ('max_sweeps', c_int64)]
+    _names = ['method', 'noise', 'tolerance', 'max_iterations', 'max_pivots', 'max_sweeps']
+
+
+class McpReport(Struct):
+    """Certificate, computed from the z returned, whatever the method says."""
+    _init = 'brs_mcp_report_init'
+    _fields_ = [('struct_size', c_int64),
+                ('status', c_int64),
+                ('residual', c_double),
+                ('iterations', c_int64),
+                ('rank', c_int64),
+                ('unique', c_int64),
+                ('conflict_count', c_int64)]
+    _names = ['status', 'residual', 'iterations', 'rank', 'unique', 'conflict_count']
+
+
 _library = _load()
 _brs_log_fn = ctypes.CFUNCTYPE(None, c_int32, c_char_p, c_void_p)
 _brs_progress_fn = ctypes.CFUNCTYPE(c_int32, POINTER(Progress), c_void_p)
@@ -733,6 +842,10 @@ _library.brs_context_set_cancel.restype = c_int32
 _library.brs_context_set_cancel.argtypes = [c_void_p, c_int32]
 _library.brs_mesh_create.restype = c_int32
 _library.brs_mesh_create.argtypes = [c_void_p, POINTER(c_double), c_int64, POINTER(c_int32), c_int64, POINTER(c_int32), c_int32, POINTER(c_void_p)]
+_library.brs_mesh_create_quadratic.restype = c_int32
+_library.brs_mesh_create_quadratic.argtypes = [c_void_p, POINTER(c_double), c_int64, POINTER(c_int32), POINTER(c_int32), c_int64, c_int32, POINTER(c_int32), c_int32, POINTER(c_void_p)]
+_library.brs_mesh_quadratic.restype = c_int32
+_library.brs_mesh_quadratic.argtypes = [c_void_p, POINTER(c_void_p)]
 _library.brs_mesh_destroy.restype = c_int32
 _library.brs_mesh_destroy.argtypes = [c_void_p]
 _library.brs_mesh_info_init.restype = c_int32
@@ -767,6 +880,10 @@ _library.brs_scene_set_gravity.restype = c_int32
 _library.brs_scene_set_gravity.argtypes = [c_void_p, POINTER(c_double)]
 _library.brs_scene_set_balanced_reference.restype = c_int32
 _library.brs_scene_set_balanced_reference.argtypes = [c_void_p, c_int32]
+_library.brs_scene_set_volume_strain.restype = c_int32
+_library.brs_scene_set_volume_strain.argtypes = [c_void_p, c_int32]
+_library.brs_scene_quadratic.restype = c_int32
+_library.brs_scene_quadratic.argtypes = [c_void_p, POINTER(c_void_p)]
 _library.brs_scene_set_csf.restype = c_int32
 _library.brs_scene_set_csf.argtypes = [c_void_p, c_double, c_int32, c_double]
 _library.brs_compartment_init.restype = c_int32
@@ -813,6 +930,8 @@ _library.brs_stepper_create.restype = c_int32
 _library.brs_stepper_create.argtypes = [c_void_p, POINTER(StepperOptions), POINTER(c_void_p)]
 _library.brs_stepper_destroy.restype = c_int32
 _library.brs_stepper_destroy.argtypes = [c_void_p]
+_library.brs_stepper_mesh.restype = c_int32
+_library.brs_stepper_mesh.argtypes = [c_void_p, POINTER(c_void_p)]
 _library.brs_stepper_set_gravity.restype = c_int32
 _library.brs_stepper_set_gravity.argtypes = [c_void_p, POINTER(c_double)]
 _library.brs_stepper_set_enabled.restype = c_int32
@@ -869,6 +988,8 @@ _library.brs_stepper_displacement_at.restype = c_int32
 _library.brs_stepper_displacement_at.argtypes = [c_void_p, POINTER(c_double), c_int64, POINTER(c_double), POINTER(c_int32)]
 _library.brs_stepper_rest_points_of.restype = c_int32
 _library.brs_stepper_rest_points_of.argtypes = [c_void_p, POINTER(c_double), c_int64, POINTER(c_double), POINTER(c_int32)]
+_library.brs_stepper_estimate_error.restype = c_int32
+_library.brs_stepper_estimate_error.argtypes = [c_void_p, POINTER(c_double), c_int64, POINTER(c_double), POINTER(c_double)]
 _library.brs_compartment_state_init.restype = c_int32
 _library.brs_compartment_state_init.argtypes = [POINTER(CompartmentState), c_int64]
 _library.brs_stepper_compartment.restype = c_int32
@@ -897,6 +1018,12 @@ _library.brs_stepper_record.restype = c_int32
 _library.brs_stepper_record.argtypes = [c_void_p, POINTER(c_uint8), c_int64, POINTER(c_int64)]
 _library.brs_stepper_replay.restype = c_int32
 _library.brs_stepper_replay.argtypes = [c_void_p, POINTER(c_uint8), c_int64, POINTER(c_void_p)]
+_library.brs_mcp_options_init.restype = c_int32
+_library.brs_mcp_options_init.argtypes = [POINTER(McpOptions), c_int64]
+_library.brs_mcp_report_init.restype = c_int32
+_library.brs_mcp_report_init.argtypes = [POINTER(McpReport), c_int64]
+_library.brs_mcp_solve.restype = c_int32
+_library.brs_mcp_solve.argtypes = [c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double), POINTER(c_double), c_int64, POINTER(McpOptions), POINTER(c_double), POINTER(c_double), POINTER(c_int32), POINTER(McpReport)]
 
 
 def version_string():
@@ -954,6 +1081,24 @@ class Context(_ContextBase):
             _same_rows('regions', regions, 'tets', tets)
         mesh = c_void_p()
         self._call('brs_mesh_create', self, _pointer(nodes, c_double), 0 if nodes is None else len(nodes), _pointer(tets, c_int32), 0 if tets is None else len(tets), _pointer(regions, c_int32), orient, byref(mesh))
+        return Mesh(mesh.value, self._context)
+
+    def mesh_create_quadratic(self, nodes, tets, edge_nodes, edges, regions=None, orient=0):
+        """Quadratic tets with a node on each edge, which may be curved. nodes: node_count x 3, mm. tets:
+        tet_count x 4, corners. edge_nodes: tet_count x 6, in the order `edges`, above. regions: tet_count,
+        or NULL for all 0. orient and errors as of brs_mesh_create, and INVALID_ARGUMENT where an edge has
+        two nodes or a node two places, INVERTED_ELEMENT where a curved tet folds over itself.
+        """
+        nodes = _array(nodes, c_double, 3, 'nodes')
+        tets = _array(tets, c_int32, 4, 'tets')
+        edge_nodes = _array(edge_nodes, c_int32, 6, 'edge_nodes')
+        _same_rows('edge_nodes', edge_nodes, 'tets', tets)
+        if regions is not None:
+            regions = _array(regions, c_int32, 1, 'regions')
+        if regions is not None:
+            _same_rows('regions', regions, 'tets', tets)
+        mesh = c_void_p()
+        self._call('brs_mesh_create_quadratic', self, _pointer(nodes, c_double), 0 if nodes is None else len(nodes), _pointer(tets, c_int32), _pointer(edge_nodes, c_int32), 0 if tets is None else len(tets), edges, _pointer(regions, c_int32), orient, byref(mesh))
         return Mesh(mesh.value, self._context)
 
     def surface_create(self, kind, points, triangles, options=None):
@@ -1028,10 +1173,40 @@ class Context(_ContextBase):
         self._call('brs_stepper_replay', self, _pointer(bytes, c_uint8), 0 if bytes is None else len(bytes), byref(stepper))
         return Stepper(stepper.value, self._context)
 
+    def mcp_solve(self, matrix, q, lower, upper, options=None):
+        """matrix: count x count, M. q: count. lower: count. upper: count. options: NULL for the defaults. z:
+        count; void where it is INFEASIBLE. w: count, or NULL. conflict: count, or NULL; the rows that
+        contradict each other, then -1. report: filled where the status is not negative, or NULL. Remarks:
+        NOT_CONVERGED (z and w are the last ones), INFEASIBLE. NOT_FINITE, INVALID_ARGUMENT, STRUCT_SIZE,
+        SIZE.
+        """
+        matrix = _square(matrix, c_double, 'matrix')
+        q = _array(q, c_double, 1, 'q')
+        _same_rows('q', q, 'matrix', matrix)
+        lower = _array(lower, c_double, 1, 'lower')
+        _same_rows('lower', lower, 'matrix', matrix)
+        upper = _array(upper, c_double, 1, 'upper')
+        _same_rows('upper', upper, 'matrix', matrix)
+        z = np.empty(len(matrix), dtype=c_double)
+        w = np.empty(len(matrix), dtype=c_double)
+        conflict = np.empty(len(matrix), dtype=c_int32)
+        report = McpReport()
+        report._owner = self
+        self._call('brs_mcp_solve', self, _pointer(matrix, c_double), _pointer(q, c_double), _pointer(lower, c_double), _pointer(upper, c_double), 0 if matrix is None else len(matrix), None if options is None else byref(options), _pointer(z, c_double), _pointer(w, c_double), _pointer(conflict, c_int32), byref(report), results=[z, w, conflict, report])
+        return z, w, conflict, report
+
 
 class Mesh(Handle):
     """A brs_mesh of the header."""
     _destroy = 'brs_mesh_destroy'
+
+    def quadratic(self):
+        """The same mesh with quadratic tets: a node in the middle of each edge, after the others; faces of
+        the surface keep their numbers. quadratic: a handle of its own, also where the mesh is so already.
+        """
+        quadratic = c_void_p()
+        self._call('brs_mesh_quadratic', self, byref(quadratic))
+        return Mesh(quadratic.value, self._context)
 
     def describe(self):
         """Its arrays are valid as long as the mesh. STRUCT_SIZE."""
@@ -1115,6 +1290,21 @@ class Scene(Handle):
         are differences from that. 0: the mesh is free of load; gravity and CSF act in full.
         """
         self._call('brs_scene_set_balanced_reference', self, balanced)
+
+    def set_volume_strain(self, volume_strain):
+        """Where linear tets take the change of volume. INVALID_ARGUMENT; quadratic tets refuse NODAL in
+        brs_stepper_create.
+        """
+        self._call('brs_scene_set_volume_strain', self, volume_strain)
+
+    def quadratic(self):
+        """The same scene, with the same ids, on quadratic tets: brs_mesh_quadratic(), constraints of the
+        nodes on edges between nodes of a group, BRS_VOLUME_STRAIN_ELEMENT. quadratic: a handle of its own.
+        INDEX_OUT_OF_RANGE for constraints on nodes that are not there.
+        """
+        quadratic = c_void_p()
+        self._call('brs_scene_quadratic', self, byref(quadratic))
+        return Scene(quadratic.value, self._context)
 
     def set_csf(self, density, model, reference_head):
         """density: kg/mm^3, > 0. model: above. reference_head: level of the full fluid, mm along -gravity
@@ -1215,6 +1405,12 @@ class Stepper(Handle):
     """A brs_stepper of the header."""
     _destroy = 'brs_stepper_destroy'
 
+    def mesh(self):
+        """Its mesh (of a quadratic scene, of a replay). mesh: a handle of its own."""
+        mesh = c_void_p()
+        self._call('brs_stepper_mesh', self, byref(mesh))
+        return Mesh(mesh.value, self._context)
+
     def set_gravity(self, gravity):
         """gravity: 3, mm/s^2. NOT_FINITE."""
         gravity = _array(gravity, c_double, 1, 'gravity')
@@ -1280,14 +1476,14 @@ class Stepper(Handle):
         """
         report = SolveReport()
         report._owner = self
-        self._call('brs_stepper_solve_static', self, byref(report), report=report)
+        self._call('brs_stepper_solve_static', self, byref(report), results=[report])
         return report
 
     def step(self, dt):
         """One step of backward Euler over dt (s); dt > 0. report and statuses as above, INVALID_ARGUMENT."""
         report = SolveReport()
         report._owner = self
-        self._call('brs_stepper_step', self, dt, byref(report), report=report)
+        self._call('brs_stepper_step', self, dt, byref(report), results=[report])
         return report
 
     def set_velocity(self, velocity):
@@ -1325,7 +1521,7 @@ class Stepper(Handle):
         """The iterate becomes the state. report: its certificate, or NULL. STRUCT_SIZE."""
         report = SolveReport()
         report._owner = self
-        self._call('brs_stepper_accept', self, byref(report), report=report)
+        self._call('brs_stepper_accept', self, byref(report), results=[report])
         return report
 
     def reject(self):
@@ -1376,6 +1572,19 @@ class Stepper(Handle):
         tets = np.empty(len(points), dtype=c_int32)
         self._call('brs_stepper_rest_points_of', self, _pointer(points, c_double), 0 if points is None else len(points), _pointer(values, c_double), _pointer(tets, c_int32))
         return values, tets
+
+    def estimate_error(self, points):
+        """The error that the mesh leaves in the displacement of points, for linear tets and a state at rest:
+        what quadratic tets would change, to first order. points: count x 3, mm, in the mesh as given.
+        errors: count, mm; NaN outside. corrections: count x 3, mm, whose lengths these are, or NULL. Costs
+        a factorisation and some tens of products with the matrix of quadratic tets. INVALID_ARGUMENT on
+        quadratic tets or in motion, LINEAR_SOLVER, SIZE. Remark: OUTSIDE.
+        """
+        points = _array(points, c_double, 3, 'points')
+        errors = np.empty(len(points), dtype=c_double)
+        corrections = np.empty((len(points), 3), dtype=c_double)
+        self._call('brs_stepper_estimate_error', self, _pointer(points, c_double), 0 if points is None else len(points), _pointer(errors, c_double), _pointer(corrections, c_double))
+        return errors, corrections
 
     def compartment(self, compartment):
         """INDEX_OUT_OF_RANGE, STRUCT_SIZE."""

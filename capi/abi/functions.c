@@ -18,6 +18,12 @@ BRS_API brs_status brs_context_set_cancel(brs_context* context, int32_t cancel) 
 BRS_API brs_status brs_mesh_create(brs_context* context, const double* nodes, int64_t node_count,
                                    const int32_t* tets, int64_t tet_count, const int32_t* regions,
                                    int32_t orient, brs_mesh** mesh) { return 0; }
+BRS_API brs_status brs_mesh_create_quadratic(brs_context* context, const double* nodes,
+                                             int64_t node_count, const int32_t* tets,
+                                             const int32_t* edge_nodes, int64_t tet_count,
+                                             int32_t edges, const int32_t* regions, int32_t orient,
+                                             brs_mesh** mesh) { return 0; }
+BRS_API brs_status brs_mesh_quadratic(brs_mesh* mesh, brs_mesh** quadratic) { return 0; }
 BRS_API brs_status brs_mesh_destroy(brs_mesh* mesh) { return 0; }
 BRS_API brs_status brs_mesh_info_init(brs_mesh_info* info, int64_t struct_size) { return 0; }
 BRS_API brs_status brs_mesh_describe(brs_mesh* mesh, brs_mesh_info* info) { return 0; }
@@ -44,6 +50,8 @@ BRS_API brs_status brs_scene_set_material(brs_scene* scene, int32_t region,
                                           const brs_material* material) { return 0; }
 BRS_API brs_status brs_scene_set_gravity(brs_scene* scene, const double* gravity) { return 0; }
 BRS_API brs_status brs_scene_set_balanced_reference(brs_scene* scene, int32_t balanced) { return 0; }
+BRS_API brs_status brs_scene_set_volume_strain(brs_scene* scene, int32_t volume_strain) { return 0; }
+BRS_API brs_status brs_scene_quadratic(brs_scene* scene, brs_scene** quadratic) { return 0; }
 BRS_API brs_status brs_scene_set_csf(brs_scene* scene, double density, int32_t model,
                                      double reference_head) { return 0; }
 BRS_API brs_status brs_compartment_init(brs_compartment* compartment, int64_t struct_size) { return 0; }
@@ -86,6 +94,7 @@ BRS_API brs_status brs_stepper_options_init(brs_stepper_options* options, int64_
 BRS_API brs_status brs_stepper_create(brs_scene* scene, const brs_stepper_options* options,
                                       brs_stepper** stepper) { return 0; }
 BRS_API brs_status brs_stepper_destroy(brs_stepper* stepper) { return 0; }
+BRS_API brs_status brs_stepper_mesh(brs_stepper* stepper, brs_mesh** mesh) { return 0; }
 BRS_API brs_status brs_stepper_set_gravity(brs_stepper* stepper, const double* gravity) { return 0; }
 BRS_API brs_status brs_stepper_set_enabled(brs_stepper* stepper, int32_t id, int32_t on) { return 0; }
 BRS_API brs_status brs_stepper_set_csf(brs_stepper* stepper, int32_t compartment, int32_t law,
@@ -123,6 +132,8 @@ BRS_API brs_status brs_stepper_displacement_at(brs_stepper* stepper, const doubl
                                                int64_t count, double* values, int32_t* tets) { return 0; }
 BRS_API brs_status brs_stepper_rest_points_of(brs_stepper* stepper, const double* points,
                                               int64_t count, double* values, int32_t* tets) { return 0; }
+BRS_API brs_status brs_stepper_estimate_error(brs_stepper* stepper, const double* points,
+                                              int64_t count, double* errors, double* corrections) { return 0; }
 BRS_API brs_status brs_compartment_state_init(brs_compartment_state* state, int64_t struct_size) { return 0; }
 BRS_API brs_status brs_stepper_compartment(brs_stepper* stepper, int32_t compartment,
                                            brs_compartment_state* state) { return 0; }
@@ -142,3 +153,9 @@ BRS_API brs_status brs_stepper_record(brs_stepper* stepper, uint8_t* bytes, int6
                                       int64_t* count) { return 0; }
 BRS_API brs_status brs_stepper_replay(brs_context* context, const uint8_t* bytes, int64_t count,
                                       brs_stepper** stepper) { return 0; }
+BRS_API brs_status brs_mcp_options_init(brs_mcp_options* options, int64_t struct_size) { return 0; }
+BRS_API brs_status brs_mcp_report_init(brs_mcp_report* report, int64_t struct_size) { return 0; }
+BRS_API brs_status brs_mcp_solve(brs_context* context, const double* matrix, const double* q,
+                                 const double* lower, const double* upper, int64_t count,
+                                 const brs_mcp_options* options, double* z, double* w,
+                                 int32_t* conflict, brs_mcp_report* report) { return 0; }

@@ -203,7 +203,7 @@ class Call:
         self.before.append(f'{p.name} = {camel(p.type)}()\n{p.name}._owner = self')
         self.arguments.append(f'byref({p.name})')
         self.results.append(p.name)
-        if p.type == 'brs_solve_report':
+        if p.type in ('brs_solve_report', 'brs_mcp_report'):
             self.report = p.name
         return False
 
@@ -227,8 +227,8 @@ class Call:
             self.results.append(f'_view({p.name}, {kind}, {rows}.value, {columns}, self)')
             return False
         if p.const:
-            expect = columns
-            make = f'_array({p.name}, {kind}, {expect}, {p.name!r})'
+            make = (f'_array({p.name}, {kind}, {columns}, {p.name!r})' if columns != rows else
+                    f'_square({p.name}, {kind}, {p.name!r})')
             self.before.append(f'if {p.name} is not None:\n    {p.name} = {make}' if p.optional
                                else f'{p.name} = {make}')
             if rows.isdigit():
@@ -249,6 +249,8 @@ class Call:
         return False
 
     def add_result(self, p):
+        if p.const:
+            raise ValueError(f'no shape is given for {p.name} of {self.f.name}')
         self.before.append(f'{p.name} = {_CTYPE[p.type]}()')
         self.arguments.append(f'byref({p.name})')
         hidden = any(o.shape and p.name in (o.shape.rows, o.shape.columns) for o in self.f.parameters)
@@ -262,8 +264,10 @@ class Call:
             return (f'        self._callback({self.f.name!r}, _{self.callback.type}, '
                     f'{self.callback.name}, {failed})\n')
         lines = '\n'.join(self.before).split('\n') if self.before else []
-        report = f', report={self.report}' if self.report and 'progress' not in self.f.name else ''
-        call = f'self._call({self.f.name!r}, {", ".join(self.arguments)}{report})'
+        # What a solve that ends otherwise has to say goes with the exception.
+        solves = self.report and 'progress' not in self.f.name
+        results = f', results=[{", ".join(self.results)}]' if solves else ''
+        call = f'self._call({self.f.name!r}, {", ".join(self.arguments)}{results})'
         if self.measured:
             name, kind = self.measured
             lines += [f'{name}, capacity = None, 0', call,

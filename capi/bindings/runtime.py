@@ -15,11 +15,13 @@ class Error(Exception):
 
 
 class NotSolved(Error):
-    """A solve that found no balance or was stopped; the state is the one before. `report` says more."""
+    """A solve that found no balance or was stopped; the state is the one before. `report` says more;
+    it is the last of `results`, which the call would have returned."""
 
-    def __init__(self, status, message, report):
+    def __init__(self, status, message, results):
         super().__init__(status, message)
-        self.report = report
+        self.results = results
+        self.report = results[-1]
 
 
 def _load():
@@ -40,6 +42,13 @@ def _array(values, dtype, columns, name):
         raise ValueError(f'{name} must have {columns} columns, not the shape {array.shape}')
     if columns == 1 and array.ndim != 1:
         raise ValueError(f'{name} must have one dimension, not the shape {array.shape}')
+    return array
+
+
+def _square(values, dtype, name):
+    array = np.ascontiguousarray(values, dtype=dtype)
+    if array.size > 0 and (array.ndim != 2 or array.shape[0] != array.shape[1]):
+        raise ValueError(f'{name} must be square, not of the shape {array.shape}')
     return array
 
 
@@ -123,7 +132,7 @@ class Handle:
             except Error:
                 pass   # from a callback of its own context
 
-    def _call(self, function, *arguments, report=None):
+    def _call(self, function, *arguments, results=None):
         """Calls; raises what a callback has raised, or an Error. Returns the status."""
         context = self._context
         status = getattr(_library, function)(*arguments)
@@ -133,8 +142,8 @@ class Handle:
             raise raised
         if status < 0:
             raise Error(status, context.message)
-        if status in (NOT_CONVERGED, NO_EQUILIBRIUM, CANCELLED) and report is not None:
-            raise NotSolved(status, context.message, report)
+        if results and status in (NOT_CONVERGED, NO_EQUILIBRIUM, CANCELLED, INFEASIBLE):
+            raise NotSolved(status, context.message, results)
         return status
 
 

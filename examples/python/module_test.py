@@ -57,6 +57,32 @@ class Module(unittest.TestCase):
         with self.assertRaises(ValueError):
             self.stepper.set_gravity([0.0, 1.0])
 
+    def test_quadratic_meshes_come_in_either_order_of_edges(self):
+        nodes, tets = make_block()
+        linear = self.context.mesh_create(nodes, tets, orient=1)
+        self.assertEqual(linear.describe().edge_nodes.shape, (0, 6))
+        info = linear.quadratic().describe()
+        self.assertEqual(info.edge_nodes.shape, (len(tets), 6))
+        gmsh = info.edge_nodes[:, [0, 1, 2, 3, 5, 4]]
+        made = self.context.mesh_create_quadratic(info.nodes, info.tets, gmsh, bs.EDGES_GMSH)
+        self.assertEqual(made.describe().edge_nodes.tobytes(), info.edge_nodes.tobytes())
+
+    def test_an_error_estimate_has_lengths_and_directions(self):
+        self.lose()
+        errors, corrections = self.stepper.estimate_error(self.stepper.mesh().describe().nodes[:5])
+        np.testing.assert_allclose(np.linalg.norm(corrections, axis=1), errors, rtol=1e-12)
+
+    def test_complementarity_problems_return_their_solution_or_raise_with_it(self):
+        z, w, conflict, report = self.context.mcp_solve([[2, 1], [0, 2]], [-2, 3], [0, 0], [9, 9])
+        np.testing.assert_allclose((z, w), ([1, 0], [0, 3]), atol=1e-12)
+        self.assertEqual((report.status, report.unique, list(conflict)), (bs.OK, 1, [-1, -1]))
+        with self.assertRaises(bs.NotSolved) as raised:
+            self.context.mcp_solve([[0]], [-1], [0], [math.inf])
+        self.assertEqual(raised.exception.status, bs.INFEASIBLE)
+        self.assertEqual(list(raised.exception.results[2]), [0])
+        with self.assertRaises(ValueError):
+            self.context.mcp_solve([[1, 2]], [0], [0], [1])
+
     def test_errors_carry_the_status_and_the_message(self):
         nodes, tets = make_block()
         tets[3, 1] = 9999

@@ -70,6 +70,25 @@ TEST(Progress, ThatThrowsEndsTheCallNotTheProgram) {
   EXPECT_EQ(host.w.solve_after_loss(5000.0), BRS_OK);
 }
 
+TEST(Progress, ThatThrowsAtAnyPollLeavesTheStateUnchanged) {
+  Host host;
+  int polls = 0;
+  host.answer = [&](const brs_progress&) { return ++polls, 0; };
+  host.w.good(host.w.solve_after_loss(5000.0));
+  host.w.good(brs_stepper_restore(host.w.stepper, host.w.snapshot));
+  ASSERT_GT(polls, 1);
+  for (int poll = 1; poll <= polls; ++poll) {
+    host.calls = 0;
+    host.answer = [&](const brs_progress&) -> std::int32_t {
+      if (host.calls == poll) throw poll;
+      return 0;
+    };
+    EXPECT_EQ(host.w.solve_after_loss(5000.0), BRS_ERROR_CALLBACK) << "poll " << poll;
+    EXPECT_EQ(host.calls, poll);
+    host.expect_untouched();
+  }
+}
+
 TEST(Progress, MayNotCallBackIntoItsContext) {
   Host host;
   World& w = host.w;

@@ -126,13 +126,22 @@ TEST_F(Constraints, OpposingNodesDoNotPassThroughEachOther) {
   Points up(9, 3);
   up.rowwise() = Eigen::RowVector3d(0.0, 0.0, 1.0);
   const double soft = 0.5;
+  std::int32_t id = -1;
   good(brs_scene_add_opposing(scene, "slide", pair.upper.data(), pair.lower.data(), up.data(), 9,
-                              nullptr));
+                              &id));
   good(brs_scene_add_support(scene, "soft", pair.upper.data(), 9, &soft, 1, nullptr));
   ConstraintSet set = held();
   set.opposing("slide", pair.upper, pair.lower, up);
   set.support("soft", pair.upper, Eigen::VectorXd::Constant(1, soft));
   expect_same_as(set);
+  brs_stepper* stepper = nullptr;
+  brs_contact_state state;
+  brs_contact_state_init(&state, sizeof state);
+  good(brs_stepper_create(scene, nullptr, &stepper));
+  good(brs_stepper_contact(stepper, id, &state));
+  EXPECT_EQ(Indices(state.nodes, state.nodes + state.count), pair.upper);
+  EXPECT_EQ(Indices(state.partners, state.partners + state.partner_count), pair.lower);
+  brs_stepper_destroy(stepper);
   EXPECT_EQ(brs_scene_add_opposing(scene, "x", pair.upper.data(), pair.lower.data(),
                                    pair.shape.points.data(), 9, nullptr),
             BRS_ERROR_INVALID_ARGUMENT);

@@ -117,6 +117,43 @@ TEST_F(Devices, InsertedMovedAndReleasedAreThoseOfTheCppLibrary) {
   EXPECT_NE(w.message().find("device"), std::string::npos);
 }
 
+TEST_F(Devices, WithLocalGiveAreThoseOfTheCppLibrary) {
+  Stepper cpp = twin();
+  std::int32_t id = -1;
+  hold.rigid_from = 0.0;
+  track.local_give = 1;
+  w.good(insert(&id));
+  TrackOptions options;
+  options.local_give = true;
+  ASSERT_EQ(cpp.insert(cpp_lead, {tip, outward}, {0.0}, options), id);
+  w.good(w.solve_after_loss(9000.0));
+  cpp.csf().set_lost_volume(0, 9000.0);
+  ASSERT_TRUE(cpp.solve_static().converged());
+  expect_same(cpp, id);
+  const std::vector<double> giving = w.field(BRS_FIELD_DISPLACEMENT);
+  w.good(brs_stepper_restore(w.stepper, w.snapshot));
+  track.local_give = 0;
+  w.good(insert(&id));
+  w.good(w.solve_after_loss(9000.0));
+  EXPECT_NE(w.field(BRS_FIELD_DISPLACEMENT), giving);
+}
+
+TEST_F(Devices, OfAnOlderHeaderAreInsertedWithoutLocalGive) {
+  brs_track_options_init(&track, 32);
+  track.local_give = 1;   // beyond what that header knew
+  std::int32_t id = -1;
+  hold.rigid_from = 0.0;
+  w.good(insert(&id));
+  w.good(w.solve_after_loss(9000.0));
+  const std::vector<double> old = w.field(BRS_FIELD_DISPLACEMENT);
+  w.good(brs_stepper_restore(w.stepper, w.snapshot));
+  brs_track_options_init(&track, sizeof track);
+  EXPECT_EQ(track.local_give, 0);
+  w.good(insert(&id));
+  w.good(w.solve_after_loss(9000.0));
+  EXPECT_EQ(w.field(BRS_FIELD_DISPLACEMENT), old);
+}
+
 TEST_F(Devices, MadeFromArraysAreThoseOfTheTable) {
   brs_device_info info;
   brs_device_info_init(&info, sizeof info);
@@ -126,6 +163,11 @@ TEST_F(Devices, MadeFromArraysAreThoseOfTheTable) {
   ASSERT_EQ(info.node_count, cpp_lead.node_count());
   same(cpp_lead.nodes(), info.nodes);
   same(cpp_lead.arcs(), info.arcs);
+  ASSERT_EQ(info.contact_count, std::int64_t(cpp_lead.contacts().size()));
+  for (std::size_t i = 0; i < cpp_lead.contacts().size(); ++i) {
+    EXPECT_EQ(info.contacts[2 * i], cpp_lead.contacts()[i].from);
+    EXPECT_EQ(info.contacts[2 * i + 1], cpp_lead.contacts()[i].to);
+  }
 
   brs_device_entry entry;
   brs_device_entry_init(&entry, sizeof entry);
@@ -153,7 +195,9 @@ TEST_F(Devices, MadeFromArraysAreThoseOfTheTable) {
   w.good(brs_device_describe(made, &info));
   same(cpp_lead.nodes(), info.nodes);
   same(cpp_lead.arcs(), info.arcs);
-  EXPECT_EQ(info.contact_count, 1);
+  ASSERT_EQ(info.contact_count, 1);
+  EXPECT_EQ(info.contacts[0], 1.5);
+  EXPECT_EQ(info.contacts[1], 3.0);
   brs_device_destroy(made);
 }
 

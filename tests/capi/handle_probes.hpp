@@ -39,6 +39,8 @@ struct Harmless {
   brs_compartment_state compartment_state;
   brs_contact_state contact_state;
   brs_device_state device_state;
+  brs_mcp_options mcp_options;
+  brs_mcp_report mcp_report;
   double numbers[64] = {};
   std::int32_t indices[64] = {};
   std::uint8_t bytes[64] = {};
@@ -61,6 +63,8 @@ struct Harmless {
     brs_compartment_state_init(&compartment_state, sizeof compartment_state);
     brs_contact_state_init(&contact_state, sizeof contact_state);
     brs_device_state_init(&device_state, sizeof device_state);
+    brs_mcp_options_init(&mcp_options, sizeof mcp_options);
+    brs_mcp_report_init(&mcp_report, sizeof mcp_report);
     material.law = "x";
     compartment.name = "x";
   }
@@ -110,6 +114,14 @@ inline std::vector<Probe> probes(World& w, Harmless& s, Made& made) {
        [&](void* h) {
          return brs_mesh_create(as<brs_context>(h), s.numbers, 1, s.indices, 1, s.indices, 1, &made.mesh);
        }},
+      {"brs_mesh_create_quadratic", "context",
+       [&](void* h) {
+         return brs_mesh_create_quadratic(as<brs_context>(h), s.numbers, 1, s.indices, s.indices, 1, 1, s.indices, 1, &made.mesh);
+       }},
+      {"brs_mesh_quadratic", "mesh",
+       [&](void* h) {
+         return brs_mesh_quadratic(as<brs_mesh>(h), &made.mesh);
+       }},
       {"brs_mesh_describe", "mesh",
        [&](void* h) {
          return brs_mesh_describe(as<brs_mesh>(h), &s.mesh_info);
@@ -157,6 +169,14 @@ inline std::vector<Probe> probes(World& w, Harmless& s, Made& made) {
       {"brs_scene_set_balanced_reference", "scene",
        [&](void* h) {
          return brs_scene_set_balanced_reference(as<brs_scene>(h), 1);
+       }},
+      {"brs_scene_set_volume_strain", "scene",
+       [&](void* h) {
+         return brs_scene_set_volume_strain(as<brs_scene>(h), 1);
+       }},
+      {"brs_scene_quadratic", "scene",
+       [&](void* h) {
+         return brs_scene_quadratic(as<brs_scene>(h), &made.scene);
        }},
       {"brs_scene_set_csf", "scene",
        [&](void* h) {
@@ -225,6 +245,10 @@ inline std::vector<Probe> probes(World& w, Harmless& s, Made& made) {
       {"brs_stepper_create", "scene",
        [&](void* h) {
          return brs_stepper_create(as<brs_scene>(h), &s.stepper_options, &made.stepper);
+       }},
+      {"brs_stepper_mesh", "stepper",
+       [&](void* h) {
+         return brs_stepper_mesh(as<brs_stepper>(h), &made.mesh);
        }},
       {"brs_stepper_set_gravity", "stepper",
        [&](void* h) {
@@ -334,6 +358,10 @@ inline std::vector<Probe> probes(World& w, Harmless& s, Made& made) {
        [&](void* h) {
          return brs_stepper_rest_points_of(as<brs_stepper>(h), s.numbers, 1, s.numbers, s.indices);
        }},
+      {"brs_stepper_estimate_error", "stepper",
+       [&](void* h) {
+         return brs_stepper_estimate_error(as<brs_stepper>(h), s.numbers, 1, s.numbers, s.numbers);
+       }},
       {"brs_stepper_compartment", "stepper",
        [&](void* h) {
          return brs_stepper_compartment(as<brs_stepper>(h), 1, &s.compartment_state);
@@ -377,6 +405,10 @@ inline std::vector<Probe> probes(World& w, Harmless& s, Made& made) {
       {"brs_stepper_replay", "context",
        [&](void* h) {
          return brs_stepper_replay(as<brs_context>(h), s.bytes, 1, &made.stepper);
+       }},
+      {"brs_mcp_solve", "context",
+       [&](void* h) {
+         return brs_mcp_solve(as<brs_context>(h), s.numbers, s.numbers, s.numbers, s.numbers, 1, &s.mcp_options, s.numbers, s.numbers, s.indices, &s.mcp_report);
        }},
   };
 }

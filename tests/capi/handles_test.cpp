@@ -4,6 +4,7 @@
 #include <regex>
 #include <set>
 #include <sstream>
+#include <thread>
 
 #include "handle_probes.hpp"
 
@@ -11,7 +12,7 @@ namespace brainshift::test {
 namespace {
 
 class Handles : public testing::Test {
- protected:
+ public:
   World w;
   Harmless s;
   Made made;
@@ -21,6 +22,21 @@ class Handles : public testing::Test {
                                        {"snapshot", w.snapshot}};
 
   std::vector<Probe> all() { return probes(w, s, made); }
+
+  // What a callback does that calls back: every function, with good handles.
+  void expect_all_busy() {
+    std::vector<Probe> probes = all();
+    for (const Probe& p : probes_of_destroy())
+      if (changes_later(p.type)) probes.push_back(p);
+    for (const Probe& p : probes) {
+      if (std::string(p.function) == "brs_context_set_cancel") continue;  // the one that may come
+      EXPECT_EQ(p.call(handles.at(p.type)), BRS_ERROR_BUSY) << p.function;
+    }
+  }
+  // Not so the values that may be destroyed at any time.
+  static bool changes_later(const std::string& type) {
+    return type == "context" || type == "scene" || type == "stepper";
+  }
 };
 
 TEST_F(Handles, NullIsRefusedByEveryFunctionAndFineToDestroy) {
@@ -58,6 +74,25 @@ TEST_F(Handles, OfTheRightTypeAreTakenByEveryProbe) {
     EXPECT_NE(status, BRS_ERROR_NULL) << p.function << ": " << w.message();
     made.clear();
   }
+}
+
+TEST_F(Handles, OfAContextInACallAreBusyForEveryFunctionFromCallbackAndThread) {
+  const auto callback = [](const brs_progress*, void* user) -> std::int32_t {
+    auto& test = *static_cast<Handles*>(user);
+    test.expect_all_busy();
+    std::thread([&] { test.expect_all_busy(); }).join();
+    return 0;
+  };
+  const auto log = [](brs_status, const char*, void* user) {
+    static_cast<Handles*>(user)->expect_all_busy();
+  };
+  w.good(brs_context_set_progress(w.context, callback, this));
+  w.good(brs_context_set_log(w.context, log, this));
+  w.good(w.solve_after_loss(5000.0));
+  World undisturbed;
+  undisturbed.good(undisturbed.solve_after_loss(5000.0));
+  w.good(brs_context_set_log(w.context, nullptr, nullptr));
+  EXPECT_EQ(w.field(BRS_FIELD_DISPLACEMENT), undisturbed.field(BRS_FIELD_DISPLACEMENT));
 }
 
 TEST_F(Handles, EveryFunctionOfTheHeaderIsProbed) {

@@ -117,13 +117,12 @@ TEST(Memory, RunningOutWithADeviceInTimeOrInBytesLeavesTheStateAsItWas) {
   fail_each_allocation("insert", [&] {
     return brs_stepper_insert(w.stepper, w.device, tip, outward, &hold, nullptr, &id);
   });
-  EXPECT_EQ(id, 0);   // no number was lost
+  EXPECT_EQ(id, 0);  // no number was lost
   brs_device_state state;
   brs_device_state_init(&state, sizeof state);
   fail_each_allocation("device", [&] { return brs_stepper_device(w.stepper, id, &state); });
-  fail_each_allocation("exchange", [&] {
-    return brs_stepper_exchange(w.stepper, id, w.device, &hold, 0.0);
-  });
+  fail_each_allocation("exchange",
+                       [&] { return brs_stepper_exchange(w.stepper, id, w.device, &hold, 0.0); });
   w.good(brs_stepper_set_csf(w.stepper, 0, BRS_CSF_LOST_VOLUME, 5000.0));
   const std::vector<double> rest = w.field(BRS_FIELD_DISPLACEMENT);
   fail_each_allocation("step", [&] {
@@ -161,6 +160,52 @@ TEST(Memory, RunningOutWithADeviceInTimeOrInBytesLeavesTheStateAsItWas) {
     brs_stepper_destroy(replayed);
   }
   EXPECT_EQ(w.field(BRS_FIELD_DISPLACEMENT), moved);
+}
+
+TEST(Memory, RunningOutOnTheWayToQuadraticTetsIsAStatus) {
+  World w;
+  brs_mesh* mesh = nullptr;
+  brs_scene* scene = nullptr;
+  EXPECT_GT(fail_each_allocation("mesh",
+                                 [&] {
+                                   brs_mesh_destroy(mesh);
+                                   return brs_mesh_quadratic(w.mesh, &mesh);
+                                 }),
+            0);
+  EXPECT_GT(fail_each_allocation("scene",
+                                 [&] {
+                                   brs_scene_destroy(scene);
+                                   return brs_scene_quadratic(w.scene, &scene);
+                                 }),
+            0);
+  brs_scene_destroy(scene);
+  brs_mesh_destroy(mesh);
+}
+
+TEST(Memory, RunningOutWhileAnswersAreComputedLeavesTheStateAsItWas) {
+  World w;
+  w.good(w.solve_after_loss(5000.0));
+  const std::vector<double> before = w.field(BRS_FIELD_DISPLACEMENT);
+  const double point[] = {15.0, 15.0, 29.0};
+  double error = -1.0;
+  // A sample: each attempt factorises.
+  for (long n : {0L, 1L, 7L, 30L, 100L, 300L, 100000L}) {
+    countdown = n;
+    const brs_status status = brs_stepper_estimate_error(w.stepper, point, 1, &error, nullptr);
+    countdown = -1;
+    EXPECT_EQ(status, n < 100000 ? BRS_ERROR_MEMORY : BRS_OK) << n;
+    EXPECT_EQ(error == -1.0, status != BRS_OK) << n;
+  }
+  EXPECT_GT(error, 0.0);
+  EXPECT_EQ(w.field(BRS_FIELD_DISPLACEMENT), before);
+  const double matrix[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-1.0, -2.0}, lower[] = {0.0, 0.0},
+               upper[] = {9.0, 9.0};
+  double z[2] = {};
+  fail_each_allocation("mcp", [&] {
+    return brs_mcp_solve(w.context, matrix, q, lower, upper, 2, nullptr, z, nullptr, nullptr,
+                         nullptr);
+  });
+  EXPECT_NEAR(z[1], 1.0, 1e-12);
 }
 
 TEST(Memory, RunningOutWhileAConstraintIsAddedAddsNone) {

@@ -48,6 +48,8 @@ TEST(Structs, InitKnowsItsSizes) {
   expect_sizes_checked(&brs_hold_init, "hold");
   expect_sizes_checked(&brs_track_options_init, "track_options");
   expect_sizes_checked(&brs_device_state_init, "device_state");
+  expect_sizes_checked(&brs_mcp_options_init, "mcp_options");
+  expect_sizes_checked(&brs_mcp_report_init, "mcp_report");
 }
 
 TEST(Structs, OfUnknownSizeAreRefusedByEveryFunction) {
@@ -125,7 +127,7 @@ TEST(Versions, OfHeaderAndLibraryMustGoTogether) {
 }
 
 TEST(Statuses, AllHaveNames) {
-  for (brs_status s = BRS_OK; s <= BRS_OUTSIDE; ++s)
+  for (brs_status s = BRS_OK; s <= BRS_INFEASIBLE; ++s)
     EXPECT_EQ(std::string(brs_status_name(s)).substr(0, 4), "BRS_") << s;
   for (brs_status s = BRS_ERROR_NULL; s >= BRS_ERROR_INTERNAL; --s)
     EXPECT_EQ(std::string(brs_status_name(s)).substr(0, 10), "BRS_ERROR_") << s;

@@ -61,6 +61,7 @@ enum {
   BRS_NO_EQUILIBRIUM = 2, /* no balance of forces was found; the state is the one before */
   BRS_CANCELLED = 3,      /* the host asked to stop; the state is the one before the solve */
   BRS_OUTSIDE = 4,        /* some points lie outside the mesh; their rows are NaN */
+  BRS_INFEASIBLE = 5,     /* rows of a complementarity problem contradict each other */
   /* misuse of this interface */
   BRS_ERROR_NULL = -1,        /* a NULL handle, array or result */
   BRS_ERROR_HANDLE = -2,      /* a handle of another type */
@@ -146,6 +147,25 @@ typedef struct brs_mesh brs_mesh;
 BRS_API brs_status brs_mesh_create(brs_context* context, const double* nodes, int64_t node_count,
                                    const int32_t* tets, int64_t tet_count, const int32_t* regions,
                                    int32_t orient, brs_mesh** mesh);
+
+/* Order of the six edges of a quadratic tet. */
+enum {
+  BRS_EDGES_VTK = 0, /* 01, 12, 02, 03, 13, 23 */
+  BRS_EDGES_GMSH = 1 /* 01, 12, 02, 03, 23, 13 */
+};
+
+/* Quadratic tets with a node on each edge, which may be curved. nodes: node_count x 3, mm. tets:
+ * tet_count x 4, corners. edge_nodes: tet_count x 6, in the order `edges`, above. regions: tet_count,
+ * or NULL for all 0. orient and errors as of brs_mesh_create, and INVALID_ARGUMENT where an edge has
+ * two nodes or a node two places, INVERTED_ELEMENT where a curved tet folds over itself. */
+BRS_API brs_status brs_mesh_create_quadratic(brs_context* context, const double* nodes,
+                                             int64_t node_count, const int32_t* tets,
+                                             const int32_t* edge_nodes, int64_t tet_count,
+                                             int32_t edges, const int32_t* regions, int32_t orient,
+                                             brs_mesh** mesh);
+/* The same mesh with quadratic tets: a node in the middle of each edge, after the others; faces of
+ * the surface keep their numbers. quadratic: a handle of its own, also where the mesh is so already. */
+BRS_API brs_status brs_mesh_quadratic(brs_mesh* mesh, brs_mesh** quadratic);
 BRS_API brs_status brs_mesh_destroy(brs_mesh* mesh);
 
 typedef struct brs_mesh_info {
@@ -158,6 +178,13 @@ typedef struct brs_mesh_info {
   const int32_t* tets;       /* tet_count x 4 */
   const int32_t* regions;    /* tet_count */
   const int32_t* components; /* node_count; connected component of each node, from 0 */
+  int64_t surface_count;
+  const int32_t* surface_tets; /* surface_count; the tet of each face of brs_mesh_surface() */
+  /* Of linear tets both counts are 0. */
+  int64_t quadratic_tet_count, quadratic_face_count;
+  const int32_t* edge_nodes; /* quadratic_tet_count x 6, in the order of VTK */
+  const int32_t*
+      surface_edge_nodes; /* quadratic_face_count x 3, on edges 01, 12, 20 of each face */
 } brs_mesh_info;
 
 BRS_API brs_status brs_mesh_info_init(brs_mesh_info* info, int64_t struct_size);
@@ -236,6 +263,20 @@ BRS_API brs_status brs_scene_set_gravity(brs_scene* scene, const double* gravity
 /* Non-zero: the mesh is an image taken under gravity and full CSF, in balance with them, and loads
  * are differences from that. 0: the mesh is free of load; gravity and CSF act in full. */
 BRS_API brs_status brs_scene_set_balanced_reference(brs_scene* scene, int32_t balanced);
+
+/* Elements: linear tets as the mesh has them, linear tets that do not lock, or quadratic ones. */
+enum {
+  BRS_VOLUME_STRAIN_ELEMENT = 0, /* in each tet; locks as Poisson's ratio nears 1/2 */
+  BRS_VOLUME_STRAIN_NODAL = 1    /* averaged around each node of linear tets; does not lock */
+};
+
+/* Where linear tets take the change of volume. INVALID_ARGUMENT; quadratic tets refuse NODAL in
+ * brs_stepper_create. */
+BRS_API brs_status brs_scene_set_volume_strain(brs_scene* scene, int32_t volume_strain);
+/* The same scene, with the same ids, on quadratic tets: brs_mesh_quadratic(), constraints of the
+ * nodes on edges between nodes of a group, BRS_VOLUME_STRAIN_ELEMENT. quadratic: a handle of its own.
+ * INDEX_OUT_OF_RANGE for constraints on nodes that are not there. */
+BRS_API brs_status brs_scene_quadratic(brs_scene* scene, brs_scene** quadratic);
 
 enum {
   BRS_CSF_SEPARATE = 0,     /* each compartment has its own level; one that is closed stays full */
@@ -373,9 +414,10 @@ typedef struct brs_device_info {
   const char* name;
   double length; /* mm */
   int64_t node_count, contact_count;
-  const double* nodes;  /* node_count x 3, mm, at rest */
-  const double* arcs;   /* node_count, mm */
-  const double* frames; /* node_count x 9: d1, d2, d3 */
+  const double* nodes;    /* node_count x 3, mm, at rest */
+  const double* arcs;     /* node_count, mm */
+  const double* frames;   /* node_count x 9: d1, d2, d3 */
+  const double* contacts; /* contact_count x 2, mm: arc lengths of begin and end */
 } brs_device_info;
 
 BRS_API brs_status brs_device_info_init(brs_device_info* info, int64_t struct_size);
@@ -406,6 +448,8 @@ BRS_API brs_status brs_stepper_options_init(brs_stepper_options* options, int64_
 BRS_API brs_status brs_stepper_create(brs_scene* scene, const brs_stepper_options* options,
                                       brs_stepper** stepper);
 BRS_API brs_status brs_stepper_destroy(brs_stepper* stepper);
+/* Its mesh (of a quadratic scene, of a replay). mesh: a handle of its own. */
+BRS_API brs_status brs_stepper_mesh(brs_stepper* stepper, brs_mesh** mesh);
 
 /* Settings, taken up by the next solve. */
 
@@ -453,6 +497,7 @@ typedef struct brs_track_options {
   double shear_bound;   /* kPa, 0; friction along the device */
   double tip_bound;     /* mN, 0; friction at the deepest point besides */
   double least_spacing; /* mm, 1; path points closer than this are one */
+  int64_t local_give;   /* 0; 1: tissue gives way beside a device thinner than its elements */
 } brs_track_options;
 
 BRS_API brs_status brs_track_options_init(brs_track_options* options, int64_t struct_size);
@@ -575,6 +620,14 @@ BRS_API brs_status brs_stepper_displacement_at(brs_stepper* stepper, const doubl
 BRS_API brs_status brs_stepper_rest_points_of(brs_stepper* stepper, const double* points,
                                               int64_t count, double* values, int32_t* tets);
 
+/* The error that the mesh leaves in the displacement of points, for linear tets and a state at rest:
+ * what quadratic tets would change, to first order. points: count x 3, mm, in the mesh as given.
+ * errors: count, mm; NaN outside. corrections: count x 3, mm, whose lengths these are, or NULL. Costs
+ * a factorisation and some tens of products with the matrix of quadratic tets. INVALID_ARGUMENT on
+ * quadratic tets or in motion, LINEAR_SOLVER, SIZE. Remark: OUTSIDE. */
+BRS_API brs_status brs_stepper_estimate_error(brs_stepper* stepper, const double* points,
+                                              int64_t count, double* errors, double* corrections);
+
 typedef struct brs_compartment_state {
   int64_t struct_size;
   double head;          /* mm along -gravity from the origin; pressure is zero there */
@@ -598,6 +651,9 @@ typedef struct brs_contact_state {
   const double* gap;        /* count, mm; NaN for rows that are not in the scene */
   const double* multiplier; /* count, mN */
   const double* force;      /* count x 3, mN, on the nodes (partners feel the opposite) */
+  const int32_t* nodes;     /* count; of a quadratic scene with those on edges */
+  int64_t partner_count;    /* count of an opposing group, or 0 */
+  const int32_t* partners;  /* partner_count */
 } brs_contact_state;
 
 BRS_API brs_status brs_contact_state_init(brs_contact_state* state, int64_t struct_size);
@@ -654,6 +710,52 @@ BRS_API brs_status brs_stepper_record(brs_stepper* stepper, uint8_t* bytes, int6
  * bytes: count. FILE, SIZE. */
 BRS_API brs_status brs_stepper_replay(brs_context* context, const uint8_t* bytes, int64_t count,
                                       brs_stepper** stepper);
+
+/* ---- mixed complementarity problems, alone -------------------------------------------------------
+ * Find lower <= z <= upper with w = M z + q and, row by row, w >= 0 where z = lower, w <= 0 where
+ * z = upper, w = 0 in between. Bounds may be infinite. */
+
+enum {
+  BRS_MCP_AUTOMATIC = 0,   /* semismooth Newton, then pivoting where it does not converge */
+  BRS_MCP_NEWTON = 1,      /* semismooth Newton on the min function, with line search */
+  BRS_MCP_PIVOTING = 2,    /* Lemke's complementary pivoting */
+  BRS_MCP_GAUSS_SEIDEL = 3 /* projected Gauss-Seidel: a baseline */
+};
+
+typedef struct brs_mcp_options {
+  int64_t struct_size;
+  int64_t method;         /* 0, above */
+  double noise;           /* 0; q is known to this, in the unit of w */
+  double tolerance;       /* 1e-10, of the residual of the report */
+  int64_t max_iterations; /* 100, of Newton */
+  int64_t max_pivots;     /* 0: 50 + 10 count */
+  int64_t max_sweeps;     /* 10000, of Gauss-Seidel */
+} brs_mcp_options;
+
+BRS_API brs_status brs_mcp_options_init(brs_mcp_options* options, int64_t struct_size);
+
+/* Certificate, computed from the z returned, whatever the method says. */
+typedef struct brs_mcp_report {
+  int64_t struct_size;
+  int64_t status;         /* as returned: BRS_OK or a remark */
+  double residual;        /* largest |z - clamp(z - w, lower, upper)|, scaled row by row; no unit */
+  int64_t iterations;     /* Newton iterations, pivots or sweeps */
+  int64_t rank;           /* of the rows that ended strictly between their bounds */
+  int64_t unique;         /* 1; 0: z is, or may be, one of many */
+  int64_t conflict_count; /* INFEASIBLE: how many rows are proved to contradict each other */
+} brs_mcp_report;
+
+BRS_API brs_status brs_mcp_report_init(brs_mcp_report* report, int64_t struct_size);
+
+/* matrix: count x count, M. q: count. lower: count. upper: count. options: NULL for the defaults. z:
+ * count; void where it is INFEASIBLE. w: count, or NULL. conflict: count, or NULL; the rows that
+ * contradict each other, then -1. report: filled where the status is not negative, or NULL. Remarks:
+ * NOT_CONVERGED (z and w are the last ones), INFEASIBLE. NOT_FINITE, INVALID_ARGUMENT, STRUCT_SIZE,
+ * SIZE. */
+BRS_API brs_status brs_mcp_solve(brs_context* context, const double* matrix, const double* q,
+                                 const double* lower, const double* upper, int64_t count,
+                                 const brs_mcp_options* options, double* z, double* w,
+                                 int32_t* conflict, brs_mcp_report* report);
 
 #ifdef __cplusplus
 }

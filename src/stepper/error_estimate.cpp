@@ -68,8 +68,8 @@ bool improve(const Equilibrium& eq, const Forces& forces, const Vector& dx,
 }
 
 // The step, with the contacts that belong to it (primal-dual active sets).
-TwoLevelSolution step_with_contacts(const Equilibrium& fine, const Forces& forces, const Vector& load,
-                                    const CoarseLevel& level, Tangent& tangent,
+TwoLevelSolution step_with_contacts(const Equilibrium& fine, const Forces& forces,
+                                    const Vector& load, const CoarseLevel& level, Tangent& tangent,
                                     std::vector<char> closed) {
   TwoLevelSolution solution;
   int iterations = 0;

@@ -105,7 +105,8 @@ void set_local_give(const Tissue& tissue, double radius, std::vector<PathPoint>&
   const Kernel kernel = kernel_of(tissue);
   const Mesh& mesh = tissue.mesh();
   const Points& rest = mesh.nodes();
-  const Vec3 along = (place(mesh, rest, path.back()) - place(mesh, rest, path.front())).normalized();
+  const Vec3 along =
+      (place(mesh, rest, path.back()) - place(mesh, rest, path.front())).normalized();
   for (std::size_t p = 0; p < path.size(); ++p) {
     const Material& m = tissue.material_of(path[p].tet);
     const double acting = std::hypot(kernel.point * size_around(mesh, rest, path, along, p),

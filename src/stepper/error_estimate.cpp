@@ -67,6 +67,29 @@ bool improve(const Equilibrium& eq, const Forces& forces, const Vector& dx,
   return changed;
 }
 
+// The step, with the contacts that belong to it (primal-dual active sets).
+TwoLevelSolution step_with_contacts(const Equilibrium& fine, const Forces& forces,
+                                    const Vector& load, const CoarseLevel& level, Tangent& tangent,
+                                    std::vector<char> closed) {
+  TwoLevelSolution solution;
+  int iterations = 0;
+  double tolerance = first_tolerance;
+  tangent.close(closed);
+  for (int change = 1;; ++change) {
+    solution = solve_two_levels(fine, tangent, level, load, tolerance, std::move(solution));
+    iterations += solution.iterations;
+    const std::vector<double> multipliers = tangent.multipliers(load, solution.dx);
+    const bool changed = improve(fine, forces, solution.dx, multipliers, closed);
+    if (tolerance == last_tolerance && (!changed || change >= most_changes)) break;
+    if (!changed || change >= rough_changes) tolerance = last_tolerance;
+    if (!changed) continue;  // with more digits
+    tangent.close(closed);
+    solution = {};
+  }
+  solution.iterations = iterations;
+  return solution;
+}
+
 }  // namespace
 
 QuadraticCorrection quadratic_correction(const LinearState& state, const Equilibrium& fine) {
@@ -83,24 +106,11 @@ QuadraticCorrection quadratic_correction(const LinearState& state, const Equilib
   const Forces forces = fine.forces(u);
   const Vector load = fine.blocks().gather(unbalanced(state, fine, u, forces));
   Tangent tangent(fine, u, forces, std::vector<double>(fine.contacts().size(), 0.0));
-  std::vector<char> closed = closed_contacts(state, fine, ends);
-  QuadraticCorrection result{fine.mesh(), Points::Zero(fine.mesh().node_count(), 3)};
-  TwoLevelSolution solution;
-  double tolerance = first_tolerance;
-  tangent.close(closed);
-  for (int change = 1;; ++change) {
-    solution = solve_two_levels(fine, tangent, level, load, tolerance, std::move(solution));
-    result.iterations += solution.iterations;
-    const std::vector<double> multipliers = tangent.multipliers(load, solution.dx);
-    const bool changed = improve(fine, forces, solution.dx, multipliers, closed);
-    if (tolerance == last_tolerance && (!changed || change >= most_changes)) break;
-    if (!changed || change >= rough_changes) tolerance = last_tolerance;
-    if (!changed) continue;  // with more digits
-    tangent.close(closed);
-    solution = {};
-  }
+  const TwoLevelSolution solution =
+      step_with_contacts(fine, forces, load, level, tangent, closed_contacts(state, fine, ends));
+  QuadraticCorrection result{fine.mesh(), Points::Zero(fine.mesh().node_count(), 3),
+                             solution.iterations, solution.residual};
   fine.blocks().scatter_add(solution.dx, 1.0, result.w);
-  result.residual = solution.residual;
   return result;
 }
 

@@ -148,9 +148,10 @@ CoarseLevel::CoarseLevel(const Equilibrium& eq, const Tangent& tangent, const Ed
     : m_eq(eq), m_tangent(tangent), m_ends(ends), m_solver(make_spd_solver()) {
   m_solver->analyse(tangent.reduced());
   if (m_solver->factorise(tangent.reduced())) return;
-  throw Error(ErrorCode::linear_solver,
-              "the error estimate needs a stable state: the tangent of the linear tets is not positive "
-              "definite");
+  throw Error(
+      ErrorCode::linear_solver,
+      "the error estimate needs a stable state: the tangent of the linear tets is not positive "
+      "definite");
 }
 
 Points CoarseLevel::solve(const Points& forces) const {
@@ -165,8 +166,8 @@ Points CoarseLevel::solve(const Points& forces) const {
 }
 
 TwoLevelSolution solve_two_levels(const Equilibrium& eq, const Tangent& A,
-                                  const CoarseLevel& coarse, const Vector& load,
-                                  double tolerance, TwoLevelSolution s) {
+                                  const CoarseLevel& coarse, const Vector& load, double tolerance,
+                                  TwoLevelSolution s) {
   constexpr int most = 500;
   const Preconditioner precondition(eq, A, coarse);
   Vector r = A.right_side(load), z = precondition(r);

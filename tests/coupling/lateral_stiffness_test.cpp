@@ -109,14 +109,13 @@ class Disc {
     const auto count = Eigen::Index(path.size());
     Eigen::MatrixXd C = Eigen::MatrixXd::Zero(3 * m_mesh.node_count(), count);
     for (Eigen::Index p = 0; p < count; ++p) {
-      for_each_tie_point(
-          path[std::size_t(p)], [&](Index tet, const Eigen::Vector4d& weights, double share) {
-            const Interpolation at = m_mesh.interpolation(tet, weights);
-            for (std::size_t a = 0; a < std::size_t(at.count); ++a) {
-              C.col(p).segment<3>(3 * m_slot[std::size_t(at.nodes[a])]) +=
-                  share * at.weights[a] * push;
-            }
-          });
+      for_each_tie_point(path[std::size_t(p)], [&](Index tet, const Eigen::Vector4d& weights,
+                                                   double share) {
+        const Interpolation at = m_mesh.interpolation(tet, weights);
+        for (std::size_t a = 0; a < std::size_t(at.count); ++a) {
+          C.col(p).segment<3>(3 * m_slot[std::size_t(at.nodes[a])]) += share * at.weights[a] * push;
+        }
+      });
     }
     Eigen::MatrixXd Z(C.rows(), count);
     for (Eigen::Index p = 0; p < count; ++p) Z.col(p) = m_reduction->restrict_force(C.col(p));
@@ -182,9 +181,11 @@ TEST(LateralStiffness, OfTheClosedForm) { EXPECT_NEAR(annulus(lead), 3.3399, 1e-
 // 40 mm is no infinite body to a ring of 9 to 11 mm.
 void expect_near_the_annulus(Element element, const Shape& shape, double radius) {
   const Spread given = spread(element, shape, radius, LocalGive{radius});
-  std::printf("lateral stiffness over the annulus', %s, %s, h %g mm, r %g mm: with local give %.3f "
-              "(%.3f to %.3f)\n", name_of(element).c_str(), shape.leaning ? "leaning" : "upright",
-              shape.h, radius, given.mean, given.low, given.high);
+  std::printf(
+      "lateral stiffness over the annulus', %s, %s, h %g mm, r %g mm: with local give %.3f "
+      "(%.3f to %.3f)\n",
+      name_of(element).c_str(), shape.leaning ? "leaning" : "upright", shape.h, radius, given.mean,
+      given.low, given.high);
   EXPECT_NEAR(given.mean, 1.0, 0.03);
   EXPECT_GE(given.low, 0.92);
   EXPECT_LE(given.high, 1.08);
@@ -195,25 +196,28 @@ int cells(Element element) {
   return element == Element::linear ? 56 : element == Element::nodal_volume ? 40 : 20;
 }
 
-void expect_near_the_annulus(Element element) {
-  for (bool leaning : {false, true}) {
-    for (double h : {1.0, 2.0, 4.0, 8.0}) {
-      expect_near_the_annulus(element, {h, leaning, cells(element)}, lead);
-    }
+void expect_near_the_annulus(Element element, bool leaning) {
+  for (double h : {1.0, 2.0, 4.0, 8.0}) {
+    expect_near_the_annulus(element, {h, leaning, cells(element)}, lead);
   }
 }
 
-TEST(LateralStiffness, OfLinearTetsWithTheLocalGive) { expect_near_the_annulus(Element::linear); }
-
-TEST(LateralStiffness, OfNodalVolumesWithTheLocalGive) {
-  expect_near_the_annulus(Element::nodal_volume);
+TEST(LateralStiffness, OfUprightLinearTets) { expect_near_the_annulus(Element::linear, false); }
+TEST(LateralStiffness, OfLeaningLinearTets) { expect_near_the_annulus(Element::linear, true); }
+TEST(LateralStiffness, OfUprightNodalVolumes) {
+  expect_near_the_annulus(Element::nodal_volume, false);
+}
+TEST(LateralStiffness, OfLeaningNodalVolumes) {
+  expect_near_the_annulus(Element::nodal_volume, true);
+}
+TEST(LateralStiffness, OfUprightQuadraticTets) {
+  expect_near_the_annulus(Element::quadratic, false);
+}
+TEST(LateralStiffness, OfLeaningQuadraticTets) {
+  expect_near_the_annulus(Element::quadratic, true);
 }
 
-TEST(LateralStiffness, OfQuadraticTetsWithTheLocalGive) {
-  expect_near_the_annulus(Element::quadratic);
-}
-
-TEST(LateralStiffness, OfARodWiderThanTheTetsWithTheLocalGive) {
+TEST(LateralStiffness, OfARodWiderThanTheTets) {
   for (Element element : {Element::linear, Element::quadratic}) {
     expect_near_the_annulus(element, {2.0, false, cells(element)}, 3.0);
   }
@@ -223,8 +227,9 @@ TEST(LateralStiffness, OfARodWiderThanTheTetsWithTheLocalGive) {
 TEST(LateralStiffness, WithoutTheLocalGiveIsTooHigh) {
   for (double h : {2.0, 4.0, 8.0}) {
     const Spread plain = spread(Element::linear, {h, false, cells(Element::linear)}, lead, nothing);
-    std::printf("lateral stiffness over the annulus', linear, upright, h %g mm: %.2f (%.2f to %.2f)\n",
-                h, plain.mean, plain.low, plain.high);
+    std::printf(
+        "lateral stiffness over the annulus', linear, upright, h %g mm: %.2f (%.2f to %.2f)\n", h,
+        plain.mean, plain.low, plain.high);
     EXPECT_GT(plain.mean, 1.15);
   }
 }

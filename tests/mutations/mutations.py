@@ -34,7 +34,7 @@ MUTATIONS = [
      "gap < -slack", "false && gap < -slack", "test_stepper", "ErrorEstimate*"),
     ("local give", "src/coupling/local_give.cpp",
      "kernel.ring * path[p].spread", "0.7 * kernel.ring * path[p].spread",
-     "test_coupling", "LateralStiffness.OfLinear*"),
+     "test_coupling", "LateralStiffness.OfUprightLinear*"),
     ("error estimate", "src/stepper/two_levels.cpp",
      "all.row(Eigen::Index(i)) = 0.5 * (corners", "all.row(Eigen::Index(i)) = 0.45 * (corners",
      "test_stepper", "ErrorEstimate*"),

@@ -55,14 +55,16 @@ void Tissue::make_elements() {
   m_connectivity.leftCols<4>() = m_mesh.tets();
   if (m_mesh.is_quadratic()) {
     m_connectivity.rightCols<6>() = m_mesh.edge_nodes();
-    m_elements = std::vector<Tet10>();
   }
+  const auto elements = std::make_shared<Elements>();
+  if (m_mesh.is_quadratic()) elements->emplace<std::vector<Tet10>>();
   std::visit(
-      [&](auto& elements) {
-        elements.reserve(std::size_t(m_mesh.tet_count()));
-        for (Index t = 0; t < m_mesh.tet_count(); ++t) elements.emplace_back(m_mesh, t);
+      [&](auto& list) {
+        list.reserve(std::size_t(m_mesh.tet_count()));
+        for (Index t = 0; t < m_mesh.tet_count(); ++t) list.emplace_back(m_mesh, t);
       },
-      m_elements);
+      *elements);
+  m_elements = elements;
 }
 
 namespace {
@@ -89,7 +91,7 @@ void Tissue::average_volumes() {
     }
     std::sort(tets_of.back().begin(), tets_of.back().end());
   }
-  m_volume = NodalVolume(m_mesh, std::get<std::vector<Tet4>>(m_elements), tets_of, lambda);
+  m_volume = NodalVolume(m_mesh, std::get<std::vector<Tet4>>(*m_elements), tets_of, lambda);
 }
 
 Lame Tissue::element_constants(const Part& part) const {
@@ -100,7 +102,7 @@ Lame Tissue::element_constants(const Part& part) const {
 
 // Measures of the change of volume, and where `gradients` is given their gradients by F.
 std::vector<double> Tissue::volume_measures(const Points& u, std::vector<Mat3>* gradients) const {
-  const auto& elements = std::get<std::vector<Tet4>>(m_elements);
+  const auto& elements = std::get<std::vector<Tet4>>(*m_elements);
   std::vector<double> theta(elements.size());
   if (gradients) gradients->resize(elements.size());
   for_all_tets([&](const LawFunctions& law, const Lame&, Index t) {
@@ -124,7 +126,7 @@ double Tissue::energy(const Points& u) const {
           }
         });
       },
-      m_elements);
+      *m_elements);
   double sum = 0.0;  // in the order of the tets, whatever the threads
   for (double energy : energies) sum += energy;
   if (!m_volume.empty()) sum += m_volume.energy(volume_measures(u));
@@ -132,7 +134,7 @@ double Tissue::energy(const Points& u) const {
 }
 
 void Tissue::internal_force(const Points& u, Points& force) const {
-  std::visit([&](const auto& elements) { element_forces(elements, u, force); }, m_elements);
+  std::visit([&](const auto& elements) { element_forces(elements, u, force); }, *m_elements);
 }
 
 template <class Element>
@@ -184,7 +186,7 @@ Eigen::VectorXd Tissue::quadratic_volumes(Index t) const {
 
 double Tissue::volume_of(Index t) const {
   return std::visit([t](const auto& elements) { return elements[std::size_t(t)].volume(); },
-                    m_elements);
+                    *m_elements);
 }
 
 double Tissue::mass() const {
@@ -223,7 +225,7 @@ Eigen::VectorXd Tissue::jacobians(const Points& u) const {
           result[t] = least;
         });
       },
-      m_elements);
+      *m_elements);
   return result;
 }
 

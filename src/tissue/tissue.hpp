@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -93,7 +94,9 @@ class Tissue {
   Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> m_connectivity;
   std::vector<Part> m_parts;
   std::map<Index, std::size_t> m_part_of;  // by region
-  Elements m_elements;
+  // Shared by copies, which never change them. (A variant of vectors must not be copied either: out of
+  // memory, libstdc++ 12 visits one that holds nothing.)
+  std::shared_ptr<const Elements> m_elements;
   NodalVolume m_volume;  // empty unless volumes are averaged at nodes
   double m_scale = 0.0;
   int m_threads = 1;

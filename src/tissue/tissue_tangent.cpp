@@ -83,7 +83,7 @@ void remove_negative_eigenvalues(Mat9& A) {
 void Tissue::tangent(const Points& u, bool definite, const ElementMap& map, Points& force,
                      BlockMatrix& K) const {
   std::visit([&](const auto& elements) { element_tangents(elements, u, definite, map, force, K); },
-             m_elements);
+             *m_elements);
 }
 
 template <class Element>

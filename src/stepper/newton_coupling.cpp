@@ -9,7 +9,6 @@
 #include "brainshift/error.hpp"
 #include "brainshift/mcp.hpp"
 #include "stepper/newton.hpp"
-#include "stepper/norms.hpp"
 
 namespace brainshift {
 namespace {

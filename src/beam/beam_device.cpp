@@ -5,8 +5,8 @@
 
 #include "beam/element.hpp"
 #include "beam/rotation.hpp"
-#include "beam/text.hpp"
 #include "brainshift/error.hpp"
+#include "text.hpp"
 
 namespace brainshift {
 

@@ -1,9 +1,9 @@
 // The devices of the table.
 #include <cmath>
 
-#include "beam/text.hpp"
 #include "brainshift/beam_device.hpp"
 #include "brainshift/error.hpp"
+#include "text.hpp"
 
 namespace brainshift {
 namespace {

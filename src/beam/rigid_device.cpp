@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "beam/rotation.hpp"
-#include "beam/text.hpp"
 #include "brainshift/error.hpp"
+#include "text.hpp"
 
 namespace brainshift {
 

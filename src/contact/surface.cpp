@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "beam/text.hpp"
 #include "brainshift/error.hpp"
 #include "contact/distance.hpp"
 #include "contact/tricubic_spline.hpp"
 #include "mesh/surface_topology.hpp"
+#include "text.hpp"
 
 namespace brainshift {
 
@@ -32,7 +31,7 @@ void check(const SurfaceOptions& options) {
   const auto positive = [](double value, const char* name) {
     if (!(value > 0.0 && std::isfinite(value)))
       throw Error(ErrorCode::invalid_argument, std::string("SurfaceOptions::") + name + " is " +
-                                                   std::to_string(value) +
+                                                   text(value) +
                                                    " mm, but must be positive");
   };
   positive(options.grid_spacing, "grid_spacing");
@@ -49,12 +48,12 @@ Grid grid_around(const Points& points, SurfaceKind kind, const SurfaceOptions& o
   const Vec3 blocks = (size / (block * h)).array().ceil();
   const double total = (blocks * block + Vec3::Ones()).prod();
   if (!(total <= most_grid_points)) {
-    char text[200];
-    std::snprintf(text, sizeof text,
-                  "SurfaceOptions::grid_spacing %g mm needs %.3g grid points, more than %g, for a "
-                  "surface of %.0f x %.0f x %.0f mm",
-                  h, total, most_grid_points, high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-    throw Error(ErrorCode::invalid_argument, text);
+    const Vec3 extent = high - low;
+    throw Error(ErrorCode::invalid_argument,
+                "SurfaceOptions::grid_spacing " + text(h) + " mm needs " + text(total, 3) +
+                    " grid points, more than " + text(most_grid_points) + ", for a surface of " +
+                    text(extent[0], 4) + " x " + text(extent[1], 4) + " x " + text(extent[2], 4) +
+                    " mm");
   }
   Grid grid{(low + high - blocks * block * h) / 2.0, h, {}};
   for (int axis = 0; axis < 3; ++axis)

@@ -10,6 +10,7 @@
 #include "brainshift/error.hpp"
 #include "mesh/edge_nodes.hpp"
 #include "mesh/quadratic_tet.hpp"
+#include "text.hpp"
 
 namespace brainshift {
 namespace {
@@ -150,8 +151,8 @@ std::vector<PathPoint> crossings(const Mesh& mesh, const Points& positions, cons
   });
   if (pieces.empty() || pieces.front().crossing.from > tiny) {
     throw Error(ErrorCode::invalid_argument,
-                "the tip (" + std::to_string(tip.x()) + " " + std::to_string(tip.y()) + " " +
-                    std::to_string(tip.z()) + ") of the device is not in tissue");
+                "the tip (" + text(tip.x()) + " " + text(tip.y()) + " " +
+                    text(tip.z()) + ") of the device is not in tissue");
   }
   std::vector<PathPoint> path;
   double reached = 0.0;
@@ -159,8 +160,8 @@ std::vector<PathPoint> crossings(const Mesh& mesh, const Points& positions, cons
     const Crossing& c = piece.crossing;
     if (c.from > reached + 1e-6 * mesh.diameter()) {
       throw Error(ErrorCode::invalid_argument,
-                  "the track leaves the tissue " + std::to_string(reached) +
-                      " mm from the tip and enters it again at " + std::to_string(c.from) + " mm");
+                  "the track leaves the tissue " + text(reached, 6) +
+                      " mm from the tip and enters it again at " + text(c.from, 6) + " mm");
     }
     reached = std::max(reached, c.to);
     const double before = path.empty() ? 0.0 : path.back().arc;

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "beam/text.hpp"
 #include "brainshift/error.hpp"
 #include "mesh/surface_topology.hpp"
+#include "text.hpp"
 
 namespace brainshift {
 

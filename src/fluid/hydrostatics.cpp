@@ -4,11 +4,11 @@
 #include <cmath>
 #include <string>
 
-#include "beam/text.hpp"
 #include "brainshift/error.hpp"
 #include "fluid/faces.hpp"
 #include "fluid/quadratic_face.hpp"
 #include "mesh/surface_topology.hpp"
+#include "text.hpp"
 
 namespace brainshift {
 namespace {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -18,6 +17,7 @@
 #include "mesh/quadratic_tet.hpp"
 #include "mesh/surface_topology.hpp"
 #include "mesh/tet_locator.hpp"
+#include "text.hpp"
 
 namespace brainshift {
 
@@ -71,12 +71,6 @@ std::string node_list(const Tets& tets, Eigen::Index tet) {
   return list + ")";
 }
 
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 void check_sizes(const Points& nodes, const Tets& tets, const Indices& regions) {
   if (nodes.rows() == 0) throw Error(ErrorCode::empty, "the mesh has no nodes");
   if (tets.rows() == 0) throw Error(ErrorCode::empty, "the mesh has no tets");
@@ -117,7 +111,7 @@ Index check_volumes(const Points& nodes, Tets& tets, EdgeNodes& edge_nodes, bool
     if (volume > 0.0) continue;
     if (!orient)
       throw Error(ErrorCode::inverted_element,
-                  tet_name(i) + " has negative volume " + short_number(volume) + " mm^3 " +
+                  tet_name(i) + " has negative volume " + text(volume, 3) + " mm^3 " +
                       node_list(tets, i) + "; turn it or set MeshOptions::orient");
     std::swap(tets(i, 2), tets(i, 3));
     if (edge_nodes.rows() > 0) {  // 12 <-> 13, 02 <-> 03

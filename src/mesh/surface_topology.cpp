@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "brainshift/error.hpp"
+#include "text.hpp"
 
 namespace brainshift {
 namespace {
@@ -104,9 +105,9 @@ void require_finite(const Points& points, const std::string& what) {
   for (Eigen::Index i = 0; i < points.rows(); ++i)
     if (!points.row(i).allFinite())
       throw Error(ErrorCode::not_finite, "row " + std::to_string(i) + " of " + what + " holds (" +
-                                             std::to_string(points(i, 0)) + ", " +
-                                             std::to_string(points(i, 1)) + ", " +
-                                             std::to_string(points(i, 2)) + ")");
+                                             text(points(i, 0)) + ", " +
+                                             text(points(i, 1)) + ", " +
+                                             text(points(i, 2)) + ")");
 }
 
 void require_triangles(const Points& points, const Triangles& triangles, const std::string& what) {

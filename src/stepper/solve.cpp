@@ -1,10 +1,10 @@
 #include "stepper/solve.hpp"
+#include "text.hpp"
 
 #include <algorithm>
 #include <string>
 #include <utility>
 
-#include "beam/text.hpp"
 
 namespace brainshift {
 namespace {

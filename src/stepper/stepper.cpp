@@ -4,11 +4,11 @@
 #include <limits>
 #include <string>
 
-#include "beam/text.hpp"
 #include "brainshift/error.hpp"
 #include "stepper/error_estimate.hpp"
 #include "stepper/stepper_impl.hpp"
 #include "stepper/stopwatch.hpp"
+#include "text.hpp"
 
 namespace brainshift {
 

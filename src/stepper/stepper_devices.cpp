@@ -4,10 +4,10 @@
 #include <limits>
 #include <string>
 
-#include "beam/text.hpp"
 #include "brainshift/error.hpp"
 #include "coupling/coupling.hpp"
 #include "stepper/stepper_impl.hpp"
+#include "text.hpp"
 
 namespace brainshift {
 namespace {

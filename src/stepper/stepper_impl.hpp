@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "beam/text.hpp"
 #include "brainshift/error.hpp"
 #include "brainshift/stepper.hpp"
 #include "coupling/coupling.hpp"
@@ -18,6 +17,7 @@
 #include "stepper/equilibrium.hpp"
 #include "stepper/newton.hpp"
 #include "stepper/solve.hpp"
+#include "text.hpp"
 
 namespace brainshift {
 

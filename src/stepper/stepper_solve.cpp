@@ -2,10 +2,10 @@
 #include <cmath>
 #include <string>
 
-#include "beam/text.hpp"
 #include "brainshift/error.hpp"
 #include "stepper/stepper_impl.hpp"
 #include "stepper/stopwatch.hpp"
+#include "text.hpp"
 
 namespace brainshift {
 

@@ -10,23 +10,9 @@
 #include <vector>
 
 #include "brainshift/mcp.hpp"
+#include "mcp/case.hpp"
 
 namespace brainshift::test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-constexpr double inf = std::numeric_limits<double>::infinity();
-
-struct Case {
-  MatrixXd M;
-  VectorXd q, lower, upper;
-};
-
-inline Case one_sided(const MatrixXd& M, const VectorXd& q) {
-  const Eigen::Index n = q.size();
-  return {M, q, VectorXd::Zero(n), VectorXd::Constant(n, inf)};
-}
 
 inline VectorXd vector(std::initializer_list<double> values) {
   VectorXd v(values.size());

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "mcp/problems.hpp"
+#include "mcp/case.hpp"
 
 extern "C" {
 #include <FrictionContactProblem.h>

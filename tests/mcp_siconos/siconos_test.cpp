@@ -12,6 +12,7 @@ TEST(Siconos, CrossCheck) { GTEST_SKIP() << "not compared with Siconos: " BRAINS
 #else
 
 #include "mcp/friction.hpp"
+#include "mcp/problems.hpp"
 #include "siconos.hpp"
 
 namespace brainshift::test {

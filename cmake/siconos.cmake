@@ -1,0 +1,27 @@
+# Siconos, which complementarity problems are compared with. Sets no_siconos to why it is not there, or
+# to nothing; siconos_into(target) makes a target use it.
+option(BRAINSHIFT_TEST_SICONOS "Cross-check complementarity problems with Siconos, where installed" ON)
+set(no_siconos "")
+if(NOT BRAINSHIFT_TEST_SICONOS)
+  set(no_siconos "switched off by BRAINSHIFT_TEST_SICONOS")
+else()
+  find_path(SICONOS_INCLUDE_DIR SiconosConfig.h PATH_SUFFIXES siconos)
+  find_path(SICONOS_NUMERICS_INCLUDE_DIR NonSmoothDrivers.h PATH_SUFFIXES siconos/numerics)
+  find_library(SICONOS_NUMERICS_LIBRARY siconos_numerics)
+  mark_as_advanced(SICONOS_INCLUDE_DIR SICONOS_NUMERICS_INCLUDE_DIR SICONOS_NUMERICS_LIBRARY)
+  if(NOT SICONOS_INCLUDE_DIR OR NOT SICONOS_NUMERICS_INCLUDE_DIR OR NOT SICONOS_NUMERICS_LIBRARY)
+    set(no_siconos "it is not installed (Debian: libsiconos-numerics-dev)")
+  endif()
+endif()
+
+function(siconos_into target)
+  if(no_siconos)
+    message(STATUS "brainshift: ${target} is not compared with Siconos: ${no_siconos}")
+    target_compile_definitions(${target} PRIVATE BRAINSHIFT_NO_SICONOS="${no_siconos}")
+  else()
+    target_compile_definitions(${target} PRIVATE BRAINSHIFT_WITH_SICONOS)
+    target_include_directories(${target} SYSTEM PRIVATE
+                               ${SICONOS_INCLUDE_DIR} ${SICONOS_NUMERICS_INCLUDE_DIR})
+    target_link_libraries(${target} PRIVATE ${SICONOS_NUMERICS_LIBRARY})
+  endif()
+endfunction()

@@ -1,4 +1,5 @@
 // Stepper: solves, whole and phase by phase.
+#include <charconv>
 #include <cstdio>
 
 #include "arrays.hpp"
@@ -45,13 +46,21 @@ brs_solve_report report_of(const SolveReport& r) {
           r.coupling_unique ? 1 : 0};
 }
 
+// Four digits of a number, whatever the locale of the host; without memory.
+struct Digits {
+  char text[16] = {};
+  explicit Digits(double value) {
+    std::to_chars(text, text + sizeof text - 1, value, std::chars_format::general, 4);
+  }
+};
+
 // What is said of a solve that has ended; needs no memory, for the state may have changed.
 brs_status said(Context& context, const SolveReport& r) noexcept {
   context.say(r.message.c_str());
   std::snprintf(context.note, sizeof context.note,
-                "%s: residual %.1e, smallest det F %.3f, %d iterations, %d factorisations, %.3f s",
-                to_string(r.status), r.residual, r.smallest_jacobian, r.iterations,
-                r.factorisations, r.seconds);
+                "%s: residual %s, smallest det F %s, %d iterations, %d factorisations, %s s",
+                to_string(r.status), Digits(r.residual).text, Digits(r.smallest_jacobian).text,
+                r.iterations, r.factorisations, Digits(r.seconds).text);
   return status_of(r.status);
 }
 

@@ -101,7 +101,9 @@ const char* to_string(StepPhase phase);
 struct SolveReport {
   Status status = Status::not_converged;
   // max-norm of unbalanced force / largest of the force norms; in time inertia and damping are among
-  // the forces
+  // the forces. The norm counts as 1e-6 E D^2 at least (E: of the stiffest tissue, D: the diameter of
+  // the mesh): next to a region 1e10 times stiffer than the rest loads drop below that, and nothing
+  // that moves is asked for; docs/stability.md.
   double residual = 0.0;
   // max of |min(gap/L, multiplier/F)| over one-sided rows (contacts, stops of a wire with slack), and
   // of what friction exceeds its bound by, over F.

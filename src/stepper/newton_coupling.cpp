@@ -24,9 +24,8 @@ constexpr double immovable = 1e-10;
 
 // Takes such rows out of W z + q, lower <= z <= upper: they carry nothing. C: columns are the gradients
 // of the rows on tissue; stiffness: of one of its nodes (mN/mm).
-void take_out_held_rows(const SparseColumns& C, double stiffness,
-                        Eigen::MatrixXd& W, Eigen::VectorXd& q, Eigen::VectorXd& lower,
-                        Eigen::VectorXd& upper) {
+void take_out_held_rows(const SparseColumns& C, double stiffness, Eigen::MatrixXd& W,
+                        Eigen::VectorXd& q, Eigen::VectorXd& lower, Eigen::VectorXd& upper) {
   for (Eigen::Index r = 0; r < q.size(); ++r) {
     if (W(r, r) * stiffness > immovable * C.col(r).squaredNorm()) continue;
     W.row(r).setZero();
@@ -212,8 +211,7 @@ bool Newton::solve_rows(const Coupled& problem, const DeviceVectors& loads, Step
   if (problem.count == 0) return true;
   Eigen::MatrixXd W = problem.rows_alone;
   Eigen::VectorXd right = problem.alone(q), lower = problem.lower, upper = problem.upper;
-  take_out_held_rows(problem.C, m_cache.stiffness.mean_diagonal(), W, right,
-                     lower, upper);
+  take_out_held_rows(problem.C, m_cache.stiffness.mean_diagonal(), W, right, lower, upper);
   McpOptions options;
   options.noise = gap_rounding * m_eq.mesh().nodes().cwiseAbs().maxCoeff();
   const McpSolution found = solve_mcp(W, right, lower, upper, options);

@@ -50,7 +50,7 @@ endfunction()
 
 set(_solvers "-lmetis -pthread")
 if(BRAINSHIFT_WITH_CHOLMOD)
-  set(_solvers "-lcholmod -lblas -lmetis -pthread")
+  set(_solvers "-lcholmod -llapack -lblas -lmetis -pthread")
 endif()
 
 file(GLOB _headers CONFIGURE_DEPENDS include/brainshift/*.hpp)

@@ -66,6 +66,7 @@ struct Options {
   bool estimate = false;          // the error of the mesh at the landmarks, stage by stage
   bool plan = false;              // look for choices that leave the electrodes nearest their targets
   int threads = 1;
+  double accuracy = 0.0;   // mm, of what the solver leaves open; 0: as exact as it can be
   bool falx = true, skull = true, balanced = true, files = true, vtk = true, quiet = false;
 };
 

@@ -8,6 +8,7 @@ namespace dbs {
 Stepper Procedure::make_stepper(const Head& head, const Options& options, SceneIds& ids) {
   StepperOptions stepper;
   stepper.threads = options.threads;
+  if (options.accuracy > 0.0) stepper = within(options.accuracy, head.brain, std::move(stepper));
   if (!options.quiet && isatty(2)) {
     stepper.progress = [](const Progress& p) {
       std::fprintf(stderr, "\r  iteration %2d, residual %.1e, load %.3f ", p.iteration, p.residual,

@@ -67,6 +67,10 @@ struct StepperOptions {
   std::function<bool(const Progress&)> progress;
 };
 
+// `options` with tolerances for which what a solve leaves open moves no node by more than about
+// `accuracy` (mm): docs/speed.md has what is left in fact. Throws invalid_argument if it is not positive.
+StepperOptions within(double accuracy, const Mesh& mesh, StepperOptions options = {});
+
 enum class Status {
   converged,
   no_equilibrium,   // no state in balance was found beyond SolveReport::load_factor

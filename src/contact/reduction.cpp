@@ -217,6 +217,44 @@ Eigen::VectorXd Reduction::expand(const Eigen::VectorXd& y) const {
   return dx;
 }
 
+std::vector<Reduction::Held> Reduction::held_rows() const {
+  std::vector<Held> rows;
+  for (std::size_t i = 0; i < m_blocks.size(); ++i) {
+    for (int k = 0; k < m_blocks[i].held; ++k) rows.push_back({m_blocks[i].tags[k], Index(i)});
+  }
+  return rows;
+}
+
+SparseColumns Reduction::released(const Indices& blocks, std::size_t kept,
+                                  std::vector<std::size_t>& tags) const {
+  std::vector<Indices> followers(m_blocks.size());   // through a pair row
+  for (std::size_t i = 0; i < m_blocks.size(); ++i) {
+    if (m_blocks[i].pair >= 0) followers[std::size_t(m_blocks[i].partner)].push_back(Index(i));
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  int column = 0;
+  const auto add = [&](Index block, const Vec3& motion) {
+    for (int k = 0; k < 3; ++k) entries.emplace_back(3 * block + k, column, motion[k]);
+  };
+  for (Index block : blocks) {
+    const Block& b = m_blocks[std::size_t(block)];
+    for (int k = 0; k < b.held; ++k) {
+      if (b.tags[k] == kept) continue;
+      const Vec3 motion = b.q.col(k);
+      add(block, motion);
+      for (Index i : followers[std::size_t(block)]) {
+        const Block& f = m_blocks[std::size_t(i)];
+        add(i, f.pair_response * f.pair_normal.dot(motion));
+      }
+      tags.push_back(b.tags[k]);
+      ++column;
+    }
+  }
+  SparseColumns result(3 * Eigen::Index(m_blocks.size()), column);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
 void Reduction::multipliers(const Eigen::VectorXd& unbalanced, std::vector<double>& by_tag) const {
   Eigen::VectorXd force = unbalanced;
   // Blocks with a pair row first: their reaction loads the partner.

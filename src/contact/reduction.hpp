@@ -39,6 +39,16 @@ class Reduction {
   Eigen::VectorXd expand(const Eigen::VectorXd& y) const;
   const Eigen::VectorXd& particular() const { return m_particular; }
 
+  // The rows that hold a block, and which.
+  struct Held {
+    std::size_t tag;
+    Index block;
+  };
+  std::vector<Held> held_rows() const;
+  // The motions that T gains when these blocks let go all their rows but those tagged `kept`, one per
+  // column: (9) with y beside them and c as it is reaches every motion then. tags: of those rows.
+  SparseColumns released(const Indices& blocks, std::size_t kept, std::vector<std::size_t>& tags) const;
+
   // Multipliers of the rows (by tag) that balance the force `unbalanced` on their blocks:
   // unbalanced + sum multiplier * (gradient) = 0 along the rows. Others are left untouched.
   void multipliers(const Eigen::VectorXd& unbalanced, std::vector<double>& by_tag) const;

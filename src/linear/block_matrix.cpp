@@ -114,4 +114,51 @@ void BlockMatrix::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
   }
 }
 
+namespace {
+
+struct Part {
+  int column;
+  Vec3 value;
+};
+
+// The non-zero blocks of each column, by row of blocks.
+std::vector<std::vector<Part>> parts_of(const SparseColumns& X) {
+  std::vector<std::vector<Part>> parts(std::size_t(X.rows() / 3));
+  for (int c = 0; c < int(X.cols()); ++c) {
+    for (SparseColumns::InnerIterator it(X, c); it; ++it) {
+      std::vector<Part>& row = parts[std::size_t(it.row() / 3)];
+      if (row.empty() || row.back().column != c) row.push_back({c, Vec3::Zero()});
+      row.back().value[it.row() % 3] = it.value();
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+SparseColumns BlockMatrix::multiply(const SparseColumns& X) const {
+  const std::vector<std::vector<Part>> parts = parts_of(X);
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&entries](Index row, const Mat3& block, const std::vector<Part>& of) {
+    for (const Part& part : of) {
+      const Vec3 product = block * part.value;
+      for (int k = 0; k < 3; ++k) entries.emplace_back(3 * row + k, part.column, product[k]);
+    }
+  };
+  for (Index j = 0; j < m_blocks; ++j) {
+    const Index count = Index(rows_end(j) - rows_begin(j));
+    for (Index k = 0; k < count; ++k) {
+      const Index i = rows_begin(j)[k];
+      const std::vector<Part>&in_row = parts[std::size_t(i)], &in_column = parts[std::size_t(j)];
+      if (in_row.empty() && in_column.empty()) continue;
+      const Mat3 block = get(slot_at(j, k));
+      add(i, block, in_column);
+      if (i != j) add(j, block.transpose(), in_row);
+    }
+  }
+  SparseColumns result(X.rows(), X.cols());
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
 }  // namespace brainshift

@@ -47,6 +47,8 @@ class BlockMatrix {
 
   // y = K x for the symmetric matrix; x, y: 3 * blocks().
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+  // K X of columns with few entries each.
+  SparseColumns multiply(const SparseColumns& X) const;
 
   // Compressed columns of scalars, as the solvers want them.
   const std::vector<int>& scalar_columns() const { return m_scalar_columns; }

@@ -12,12 +12,23 @@ class SpdSolver {
   virtual ~SpdSolver() = default;
   // Symbolic analysis in the order the matrix has (it should be fill-reducing already).
   virtual void analyse(const BlockMatrix& matrix) = 0;
-  // Numeric factor of a matrix with the analysed pattern; false: not positive definite.
+  // Numeric factor A = P^T L L^T P of a matrix with the analysed pattern; false: not positive definite.
   virtual bool factorise(const BlockMatrix& matrix) = 0;
   // Overwrites each column of `x` with the solution for it.
   virtual void solve(Eigen::MatrixXd& x) = 0;
-  // C^T A^-1 C; cheap where each column of C has few entries (the rows it reaches alone are worked on).
-  virtual Eigen::MatrixXd compliance(const SparseColumns& C) = 0;
+
+  // Columns C kept beside the factor as Y = L^-1 P C: cheap where each has few entries (the rows it
+  // reaches alone are worked on). They are forgotten with the factor.
+  virtual void append(const SparseColumns& C) = 0;
+  // Forgets all but the first `count`, which end where an append() has ended.
+  virtual void keep(Eigen::Index count) = 0;
+  virtual Eigen::Index column_count() const = 0;
+  virtual const Eigen::MatrixXd& compliance() const = 0;               // Y^T Y = C^T A^-1 C
+  // A^-1 (b + C a) in two halves, between which C^T A^-1 b is to be had without a solve.
+  virtual Eigen::VectorXd forward(const Eigen::VectorXd& b) = 0;       // z = L^-1 P b
+  virtual Eigen::VectorXd project(const Eigen::VectorXd& z) const = 0; // Y^T z = C^T A^-1 b
+  virtual Eigen::VectorXd backward(const Eigen::VectorXd& z, const Eigen::VectorXd& a) = 0;
+
   // Threads that solves for many columns may use; no result depends on it.
   virtual void set_threads(int threads) = 0;
   // Entries of the factor.

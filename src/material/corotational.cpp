@@ -25,12 +25,17 @@ Mat3 stress_from(const Lame& lame, const Polar& polar) {
 }
 
 double energy(const Lame& lame, const Mat3& G) {
-  const Vec3 strain = polar_decomposition(G).strain;
-  const double trace = strain.sum();
-  return lame.mu * strain.squaredNorm() + 0.5 * lame.lambda * trace * trace;
+  const Mat3 D = stretch(G).D;
+  const double trace = D.trace();
+  return lame.mu * D.squaredNorm() + 0.5 * lame.lambda * trace * trace;
 }
 
-Mat3 stress(const Lame& lame, const Mat3& G) { return stress_from(lame, polar_decomposition(G)); }
+Mat3 stress(const Lame& lame, const Mat3& G) {
+  const Stretch s = stretch(G);
+  Mat3 principal = 2.0 * lame.mu * s.D;
+  principal.diagonal().array() += lame.lambda * s.D.trace();
+  return s.R * principal;
+}
 
 void tangent(const Lame& lame, const Mat3& G, bool definite, Mat3& P, Mat9& A) {
   const Polar polar = polar_decomposition(G);

@@ -33,7 +33,42 @@ Polar polar_by_svd(const Mat3& F) {
   return polar;
 }
 
+// Newton's iteration for the rotation nearest to F (Higham 1986, unscaled), which converges quadratically
+// from any F with det F > 0; false where it does not in a few steps, far from a rotation.
+bool nearest_rotation(const Mat3& F, Mat3& R) {
+  constexpr int most = 9;
+  constexpr double enough = 1e-8;   // the next step squares it
+  R = F;
+  for (int i = 0; i < most; ++i) {
+    const Mat3 C = cofactor(R);
+    const double det = R.col(0).dot(C.col(0));
+    if (!(det > 1e-6)) return false;   // of a flat tet, and of no number
+    const Mat3 next = 0.5 * (R + C / det);
+    const double change = (next - R).cwiseAbs().maxCoeff();
+    R = next;
+    if (change <= enough) return true;
+  }
+  return false;
+}
+
 }  // namespace
+
+// D (2 I + D) = 2 E: one step of D = 2 E (2 I + D)^-1 gives the digits that R^T F - I has lost.
+Stretch stretch(const Mat3& G) {
+  const Mat3 F = Mat3::Identity() + G;
+  Stretch result;
+  if (!nearest_rotation(F, result.R)) {
+    const Polar polar = polar_decomposition(G);
+    const Mat3 D = polar.V * polar.strain.asDiagonal() * polar.V.transpose();
+    return {polar.R, 0.5 * (D + D.transpose())};
+  }
+  Mat3 M = result.R.transpose() * F;   // S
+  M.diagonal().array() += 1.0;
+  const Mat3 C = cofactor(M);          // M is symmetric but for rounding
+  const Mat3 D = (2.0 / M.col(0).dot(C.col(0))) * green_strain(G) * C.transpose();
+  result.D = 0.5 * (D + D.transpose());
+  return result;
+}
 
 Polar polar_decomposition(const Mat3& G) {
   const Mat3 F = Mat3::Identity() + G;

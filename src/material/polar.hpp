@@ -15,4 +15,11 @@ struct Polar {
 
 Polar polar_decomposition(const Mat3& G);
 
+// The same without axes, several times faster: F = R (I + D).
+struct Stretch {
+  Mat3 R, D;   // D = S - I, formed without cancellation
+};
+
+Stretch stretch(const Mat3& G);
+
 }  // namespace brainshift

@@ -1,12 +1,21 @@
 #include "stepper/newton.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "stepper/norms.hpp"
 #include "stepper/stopwatch.hpp"
 
 namespace brainshift {
+namespace {
+
+// A factor serves again after a step of its own this short (in diameters), while steps shrink this much and
+// no more than so many are to be expected. docs/decisions/speed.md
+constexpr double stale_reach = 5e-3, stale_rate = 0.5;
+constexpr int stale_steps = 4;
+
+}  // namespace
 
 Newton::Newton(const Equilibrium& equilibrium, const Coupling& coupling,
                const StepperOptions& options, FactorCache& cache, SolveReport& report,
@@ -37,7 +46,10 @@ Newton::Newton(const Equilibrium& equilibrium, const Coupling& coupling,
 
 void Newton::refresh() {
   Stopwatch watch(m_report.seconds_assembly);
-  m_forces = m_eq.forces(m_state.u);
+  if (m_forces_at.rows() != m_state.u.rows() || m_forces_at != m_state.u) {
+    m_forces = m_eq.forces(m_state.u);
+    m_forces_at = m_state.u;
+  }
   m_load = m_eq.blocks().gather(m_forces.external - m_forces.internal) + m_offset.tissue;
   if (m_euler) {
     m_inertia = m_euler->inertia(m_state.u);
@@ -50,7 +62,7 @@ void Newton::refresh() {
 // Multipliers that balance the forces at the present state best; negative ones are given up.
 void Newton::estimate_multipliers() {
   std::vector<double> found(m_active.size() + 1, 0.0);
-  make_reduction().multipliers(m_load + coupling_force(), found);
+  Reduction(m_eq.blocks().count(), rows_of(m_active)).multipliers(m_load + coupling_force(), found);
   found.pop_back();
   for (std::size_t r = 0; r < found.size(); ++r) {
     m_state.multipliers[r] = m_active[r] ? std::max(found[r], 0.0) : 0.0;
@@ -62,18 +74,16 @@ Newton::Outcome Newton::begin(const MechanicalState& start, const Offset& offset
   m_state = start;
   m_offset = offset;
   m_load_factor = load_factor;
+  m_potential.reset();
   m_definite = m_lost_stability = false;
   m_fresh = true;
   m_iteration = 0;
   m_last = m_previous = std::numeric_limits<double>::infinity();
   m_active.assign(m_eq.contacts().size(), 0);
-  m_factor.reset();
-  m_path_columns = m_coupling.path_columns(m_eq.blocks());
+  m_linearised.emplace(m_cache.stiffness, *m_cache.solver, m_coupling.path_columns(m_eq.blocks()));
   refresh();
   measure();
-  if (m_report.residual <= 1e-4 * m_options.residual_tolerance &&
-      m_report.complementarity <= m_options.complementarity_tolerance &&
-      m_report.tie_gap <= 1e-4 * m_options.correction_tolerance * m_eq.mesh().diameter()) {
+  if (unchanged(start)) {
     m_report.last_correction = 0.0;
     return Outcome::converged;
   }
@@ -85,7 +95,7 @@ void Newton::linearise() {
 }
 
 void Newton::solve() {
-  m_found = m_fresh ? find_step() : reuse_factor();
+  m_found = find_step();
 }
 
 Newton::Outcome Newton::update() {
@@ -124,11 +134,19 @@ Newton::Outcome Newton::take(double part, MechanicalState& next) {
     return Outcome::cancelled;
   }
   if (small_enough(m_last)) return Outcome::converged;
-  // The factor at hand serves again while the set stands and it converges fast.
-  const bool same = m_active == m_factor->active;
-  m_fresh = !(same && part == 1.0 && m_last <= 1e-3 * m_eq.mesh().diameter() &&
-              m_last <= 0.1 * m_previous);
+  const bool was_fresh = m_fresh;
+  m_fresh = !(part == 1.0 && serves_again(was_fresh));
   return Outcome::ongoing;
+}
+
+// Whether another step with the factor at hand is worth less than a new one: after its own step where that
+// was short, then as long as few more of them are to be expected.
+bool Newton::serves_again(bool was_fresh) const {
+  if (!(m_last <= stale_rate * m_previous)) return false;
+  const double diameter = m_eq.mesh().diameter();
+  if (was_fresh) return m_last <= stale_reach * diameter;
+  const double enough = m_options.correction_tolerance * diameter;
+  return enough >= m_last * std::pow(m_last / m_previous, stale_steps);
 }
 
 // Largest displacement in the part of the step that is taken, of tissue and devices.

@@ -12,6 +12,7 @@
 #include "linear/spd_solver.hpp"
 #include "stepper/backward_euler.hpp"
 #include "stepper/equilibrium.hpp"
+#include "stepper/linearised_tissue.hpp"
 
 namespace brainshift {
 
@@ -56,14 +57,6 @@ class Newton {
   bool lost_stability() const { return m_lost_stability; }
 
  private:
-  // The factor at hand, what it was made of, and what has been solved with it.
-  struct Factor {
-    Reduction reduction;
-    std::vector<char> active;              // per contact row, of the reduction
-    Eigen::MatrixXd term_rows;             // heads: T^T row, one per column
-    Eigen::MatrixXd term_moves;            // A^-1 T^T column
-    Eigen::MatrixXd path;                  // compliance of the path columns of the coupling
-  };
   struct Step {
     Eigen::VectorXd dx;                 // on blocks
     std::vector<double> multipliers;    // per contact row
@@ -76,18 +69,21 @@ class Newton {
   };
 
   void refresh();                                        // forces at m_state
+  bool serves_again(bool was_fresh) const;
+  bool unchanged(const MechanicalState& start) const;
   bool small_enough(double last_correction) const;
   void choose_active();
   void assemble();                                       // tangent at m_state
   bool factorise(const Reduction& reduction, bool singular);
   bool factorise_shifted(const Reduction& reduction, bool singular);
   bool flies(const Step& step) const;
-  Reduction make_reduction(const Reduction* like = nullptr) const;
-  void keep_factor(const Reduction& reduction);
-  Step direction(const Reduction& reduction);
+  std::vector<NodeRow> rows_of(const std::vector<char>& active) const;
+  bool make_ready(bool singular);
+  void begin_iteration();
+  bool serve();
+  Step direction();
   bool update_active(const Step& step);                  // true: the set changed
   bool find_step();
-  bool reuse_factor();
   Outcome blame();
   Outcome take(double part, MechanicalState& next);
   double length_of_step(double part) const;
@@ -99,11 +95,8 @@ class Newton {
   void measure();
   Offset no_offset() const;
   bool factorise_devices();
-  Eigen::VectorXd times_tangent(const Eigen::VectorXd& dx) const;
-  Eigen::VectorXd solve_factored(const Eigen::VectorXd& y) const;
-  Eigen::VectorXd solve_tissue(const Reduction& reduction, const Eigen::VectorXd& force) const;
   // Step of tissue and devices through their rows; adds the rows' force to `pushed`.
-  void couple(const Reduction& reduction, Step& step, Eigen::VectorXd& pushed);
+  void couple(Step& step, Eigen::VectorXd& pushed);
   struct Coupled;
   Coupled coupled_problem() const;
   void add_devices(Coupled& problem) const;
@@ -131,18 +124,21 @@ class Newton {
 
   MechanicalState m_state;
   Forces m_forces;
+  Points m_forces_at;                     // of which displacement they are
   Eigen::VectorXd m_inertia, m_damping;   // forces on blocks; of a step in time
   Offset m_offset;
   double m_load_factor = 1.0;
   Eigen::VectorXd m_load;               // external - internal + offset, on blocks; no rows
+  std::optional<double> m_potential;    // at m_state, where it is known
   DeviceVectors m_device_load;          // -gradient + offset, held dofs 0; no rows
   std::vector<CouplingRow> m_couplings;
   std::vector<BlockTridiagonalFactor> m_device_factors;
   DeviceVectors m_proximal;             // diagonal added to the tangents in them
   std::vector<char> m_active;           // per contact row
   std::vector<Mat3> m_free;             // per block: projection on what its fixed rows leave free
-  std::vector<RankOne> m_terms;
-  std::vector<Eigen::VectorXd> m_columns, m_rows;   // the terms on blocks
+  std::optional<LinearisedTissue> m_linearised;
+  std::vector<char> m_factored;         // the active set of its factor
+  std::optional<Reduction> m_reduction; // of the set in use
   Step m_step;
   bool m_found = false;                 // there is a step
   bool m_fresh = true;                  // the next iteration assembles and factorises
@@ -150,8 +146,6 @@ class Newton {
   bool m_lost_stability = false;        // of the last tangent that was factored
   int m_iteration = 0;                  // since begin()
   double m_last = 0.0, m_previous = 0.0;   // mm; lengths of the last two steps
-  SparseColumns m_path_columns;            // of the coupling
-  std::optional<Factor> m_factor;
 };
 
 }  // namespace brainshift

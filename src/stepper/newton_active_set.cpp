@@ -71,7 +71,7 @@ bool Newton::update_active(const Step& step) {
   return changed;
 }
 
-Reduction Newton::make_reduction(const Reduction* like) const {
+std::vector<NodeRow> Newton::rows_of(const std::vector<char>& active) const {
   std::vector<NodeRow> rows = m_eq.fixed_rows();
   const std::size_t untagged = m_active.size();  // multipliers of fixed rows are not kept
   const Points& u = m_state.u;
@@ -82,11 +82,11 @@ Reduction Newton::make_reduction(const Reduction* like) const {
   for (int pass = 0; pass < 2; ++pass) {  // rows of one node first, then pairs
     for (std::size_t r = 0; r < m_active.size(); ++r) {
       const ContactRow& row = m_eq.contacts().row(r);
-      if (!m_active[r] || (row.partner >= 0) != (pass == 1)) continue;
+      if (!active[r] || (row.partner >= 0) != (pass == 1)) continue;
       rows.push_back({row.node, row.partner, m_forces.gaps[r].normal, -m_forces.gaps[r].gap, r});
     }
   }
-  return Reduction(m_eq.blocks().count(), rows, like);
+  return rows;
 }
 
 }  // namespace brainshift

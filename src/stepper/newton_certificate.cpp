@@ -7,6 +7,11 @@
 #include "stepper/norms.hpp"
 
 namespace brainshift {
+namespace {
+
+constexpr double rounding_up = 1.0 + 1e-9;
+
+}  // namespace
 
 void Newton::measure() {
   const Blocks& blocks = m_eq.blocks();
@@ -21,13 +26,15 @@ void Newton::measure() {
                            max_norm(blocks.gather(m_forces.external) + m_offset.tissue), constraint,
                            m_eq.force_floor()});
   if (m_euler) scale = std::max({scale, max_norm(m_inertia), max_norm(m_damping)});
-  m_report.residual = std::max(max_norm(rest), device_residual()) / scale;
+  m_state.open_force = std::max(max_norm(rest), device_residual());
+  m_report.residual = m_state.open_force / scale;
   // A norm may skip what is not a number; a certificate must not.
   bool finite = std::isfinite(scale) && total.allFinite();
   for (const Eigen::VectorXd& load : m_device_load) finite = finite && load.allFinite();
   if (!finite) m_report.residual = std::numeric_limits<double>::infinity();
   m_report.complementarity = 0.0;
   measure_coupling(scale);
+  m_state.open_tie = m_report.tie_gap;
   m_report.violation = 0.0;
   m_report.active_contacts = 0;
   for (std::size_t r = 0; r < m_forces.gaps.size(); ++r) {
@@ -40,6 +47,17 @@ void Newton::measure() {
     // Forces below the tolerance are rounding, not contact.
     if (multiplier > m_options.residual_tolerance * scale) ++m_report.active_contacts;
   }
+}
+
+// As good as where the last solve ended, or far better than this one is asked to be: small changes of the
+// load add up until they are neither.
+bool Newton::unchanged(const MechanicalState& start) const {
+  if (m_report.complementarity > m_options.complementarity_tolerance) return false;
+  const double ties = 1e-4 * m_options.correction_tolerance * m_eq.mesh().diameter();
+  const bool still = !m_euler && m_report.residual <= m_options.residual_tolerance;
+  return (m_report.residual <= 1e-4 * m_options.residual_tolerance ||
+          (still && m_state.open_force <= rounding_up * start.open_force)) &&
+         (m_report.tie_gap <= ties || (still && m_report.tie_gap <= rounding_up * start.open_tie));
 }
 
 bool Newton::small_enough(double last_correction) const {

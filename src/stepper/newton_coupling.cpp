@@ -84,8 +84,8 @@ bool Newton::factorise_devices() {
     for (Index e = 0; e < beam.element_count(); ++e) {
       bending = std::max(bending, beam.device().section(e).bending_2);
     }
-    double shift = std::min(1e-3 * m_cache.stiffness.mean_diagonal(),
-                            2e-6 * bending / (size * size * size));
+    double shift = std::min(3e-3 * m_cache.stiffness.mean_diagonal(),
+                            6e-6 * bending / (size * size * size));
     for (int attempt = 0;; ++attempt) {
       Eigen::VectorXd gradient;
       BlockTridiagonal K(beam.node_count());
@@ -111,6 +111,7 @@ bool Newton::factorise_devices() {
 struct Newton::Coupled {
   Eigen::Index count;                // of rows
   std::vector<TieTurn> turns;
+  SparseColumns N;                   // directions, one per column, on the motion of the path
   SparseColumns C;                   // gradients on the tissue, one per column
   std::vector<Eigen::MatrixXd> D, Y; // per device: gradients, B^-1 D
   Eigen::MatrixXd W;                 // C^T A^-1 C + sum D^T Y
@@ -153,6 +154,7 @@ void Newton::Coupled::eliminate_turns() {
 void Newton::Coupled::drop_turns() {
   turns.clear();
   const auto cut = [this](Eigen::MatrixXd& columns) { columns = columns.leftCols(count).eval(); };
+  N = N.leftCols(count).eval();
   C = C.leftCols(count).eval();
   for (Eigen::MatrixXd& part : D) cut(part);
   for (Eigen::MatrixXd& part : Y) cut(part);
@@ -229,7 +231,7 @@ bool Newton::solve_rows(const Coupled& problem, const DeviceVectors& loads, Step
 // the motions the rows leave; where it does not, the step with the term stands. Nothing here touches
 // the tissue, so that all of it costs less than one iteration of Newton's method.
 void Newton::proximal_steps(const Coupled& problem, Step& step) {
-  constexpr int most = 30;
+  constexpr int most = 200;
   constexpr double enough = 1e-7;  // of the first change
   const Step first = step;
   double before = std::numeric_limits<double>::infinity(), start = 0.0;
@@ -281,10 +283,11 @@ Newton::Coupled Newton::coupled_problem() const {
   for (std::size_t i = 0; i < problem.turns.size(); ++i) {
     add(problem.turns[i].slip, count + 2 * Eigen::Index(i) + 1);
   }
-  SparseColumns N(m_path_columns.cols(), all);
+  SparseColumns& N = problem.N;
+  N.resize(m_linearised->path().cols(), all);
   N.setFromTriplets(directions.begin(), directions.end());
-  problem.C = m_path_columns * N;
-  problem.W = N.transpose() * Eigen::MatrixXd(m_factor->path * N);
+  problem.C = m_linearised->path() * N;
+  problem.W = N.transpose() * Eigen::MatrixXd(m_linearised->compliance() * N);
   for (Eigen::Index r = 0; r < count; ++r) problem.W(r, r) += m_couplings[std::size_t(r)].give;
   add_devices(problem);
   problem.eliminate_turns();
@@ -292,19 +295,17 @@ Newton::Coupled Newton::coupled_problem() const {
 }
 
 // W multiplier + (gap + rows . free step) = w,  W = C A^-1 C^T + D B^-1 D^T.
-void Newton::couple(const Reduction& reduction, Step& step, Eigen::VectorXd& pushed) {
+void Newton::couple(Step& step, Eigen::VectorXd& pushed) {
   Coupled problem = coupled_problem();
-  const Eigen::VectorXd free_dx = solve_tissue(reduction, m_load);
-  problem.q += problem.C.transpose() * free_dx;
+  problem.q += problem.N.transpose() * m_linearised->free_motion();
   if (!solve_rows(problem, m_device_load, step)) {
-    step.dx.setConstant(free_dx.size(), std::nan(""));
+    step.dx.setConstant(m_load.size(), std::nan(""));
     step.coupling.setConstant(std::nan(""));
     return;
   }
   if (!m_definite) proximal_steps(problem, step);
-  const Eigen::VectorXd force = problem.C * step.pushed;
-  step.dx = free_dx + reduction.expand(solve_factored(reduction.restrict_force(force)));
-  pushed += force;
+  step.dx = m_linearised->step(problem.N * step.pushed);
+  pushed += problem.C * step.pushed;
 }
 
 // First-order fall of the merit E + sum bound |slip| + weight * sum |open tie| + sum give/2 multiplier^2.
@@ -315,7 +316,7 @@ void Newton::predict(Step& step) const {
     if (row.kind == RowKind::along) continue;
     step.weight = std::max(step.weight, 2.0 * std::abs(step.coupling[r]));
   }
-  const Eigen::VectorXd motion = m_path_columns.transpose() * step.dx;
+  const Eigen::VectorXd motion = m_linearised->path().transpose() * step.dx;
   for (Eigen::Index r = 0; r < step.coupling.size(); ++r) {
     const CouplingRow& row = m_couplings[std::size_t(r)];
     if (row.kind != RowKind::along) {

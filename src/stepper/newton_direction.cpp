@@ -9,7 +9,7 @@ namespace brainshift {
 namespace {
 
 // Changes of the active set within one linearisation; more are left to the next iteration.
-constexpr int max_active_set_changes = 4;
+constexpr int max_active_set_changes = 8;
 
 // A step this many diameters long: the tangent is singular, and only rounding let it be factored.
 constexpr double length_of_no_step = 1e3;
@@ -22,13 +22,14 @@ void Newton::assemble() {
   Stopwatch watch(m_report.seconds_assembly);
   m_eq.tangent(m_state.u, m_forces, m_state.multipliers, m_definite, m_cache.stiffness);
   if (m_euler) m_euler->add_tangent(m_cache.stiffness);
-  m_terms = m_eq.head_terms(m_state.u, m_forces);
-  m_columns.clear();
-  m_rows.clear();
-  for (const RankOne& term : m_terms) {
-    m_columns.push_back(m_eq.blocks().gather(term.column));
-    m_rows.push_back(m_eq.blocks().gather(term.row));
+  const std::vector<RankOne> terms = m_eq.head_terms(m_state.u, m_forces);
+  const auto size = 3 * Eigen::Index(m_eq.blocks().count());
+  Eigen::MatrixXd columns(size, Eigen::Index(terms.size())), rows = columns;
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    columns.col(Eigen::Index(k)) = m_eq.blocks().gather(terms[k].column);
+    rows.col(Eigen::Index(k)) = m_eq.blocks().gather(terms[k].row);
   }
+  m_linearised->set_terms(std::move(columns), std::move(rows));
 }
 
 // singular: as it is the matrix is not worth a try.
@@ -50,83 +51,24 @@ bool Newton::factorise_shifted(const Reduction& reduction, bool singular) {
   return false;
 }
 
-// What the factor gives is kept with it: the heads' part, and how the tracks of devices give way.
-void Newton::keep_factor(const Reduction& reduction) {
-  Stopwatch watch(m_report.seconds_factor);
-  const auto terms = Eigen::Index(m_columns.size()), size = 3 * Eigen::Index(m_eq.blocks().count());
-  Factor factor{reduction, m_active, Eigen::MatrixXd(size, terms), Eigen::MatrixXd(size, terms), {}};
-  for (Eigen::Index k = 0; k < terms; ++k) {
-    factor.term_rows.col(k) = reduction.restrict_force(m_rows[std::size_t(k)]);
-    factor.term_moves.col(k) = reduction.restrict_force(m_columns[std::size_t(k)]);
-  }
-  if (terms > 0) m_cache.solver->solve(factor.term_moves);
-  if (!m_coupling.empty()) {
-    const SparseColumns C = reduction.restrict_columns(m_path_columns);
-    factor.path = m_cache.solver->compliance(C);
-    if (terms > 0) {
-      Eigen::MatrixXd moved = factor.term_rows;
-      m_cache.solver->solve(moved);
-      const Eigen::MatrixXd small = Eigen::MatrixXd::Identity(terms, terms) +
-                                    factor.term_rows.transpose() * factor.term_moves;
-      const Eigen::MatrixXd left = C.transpose() * factor.term_moves, right = C.transpose() * moved;
-      factor.path -= left * small.partialPivLu().solve(right.transpose());
-    }
-  }
-  m_factor = std::move(factor);
-}
-
-// (K + sum column row^T) dx.
-Eigen::VectorXd Newton::times_tangent(const Eigen::VectorXd& dx) const {
-  Eigen::VectorXd product;
-  m_cache.stiffness.multiply(dx, product);
-  for (std::size_t k = 0; k < m_columns.size(); ++k) product += m_columns[k] * m_rows[k].dot(dx);
-  return product;
-}
-
-// On the admissible directions of the factor's reduction (Sherman, Morrison, Woodbury).
-Eigen::VectorXd Newton::solve_factored(const Eigen::VectorXd& y) const {
-  Eigen::MatrixXd x = y;
-  m_cache.solver->solve(x);
-  const auto terms = m_factor->term_rows.cols();
-  if (terms > 0) {
-    const Eigen::MatrixXd small = Eigen::MatrixXd::Identity(terms, terms) +
-                                  m_factor->term_rows.transpose() * m_factor->term_moves;
-    x -= m_factor->term_moves * small.partialPivLu().solve(m_factor->term_rows.transpose() * x);
-  }
-  return x;
-}
-
-// dx with T^T tangent dx = T^T force among the motions the rows allow; the factor is that of `reduction`.
-Eigen::VectorXd Newton::solve_tissue(const Reduction& reduction, const Eigen::VectorXd& force) const {
-  const Eigen::VectorXd& c = reduction.particular();
-  const Eigen::VectorXd b = reduction.restrict_force(force - times_tangent(c));
-  return reduction.expand(solve_factored(b)) + c;
-}
-
 // The step of tissue and devices, and the multipliers of contact and coupling rows.
-Newton::Step Newton::direction(const Reduction& reduction) {
+Newton::Step Newton::direction() {
   Stopwatch watch(m_report.seconds_factor);
   Step step;
   Eigen::VectorXd pushed = m_load;  // with what the coupling adds
   if (m_coupling.empty()) {
-    step.dx = solve_tissue(reduction, m_load);
+    step.dx = m_linearised->step({});
   } else {
-    couple(reduction, step, pushed);
+    couple(step, pushed);
   }
-  const Eigen::VectorXd unbalanced = pushed - times_tangent(step.dx);
+  const Eigen::VectorXd unbalanced = pushed - m_linearised->times(step.dx);
   step.multipliers.assign(m_active.size() + 1, 0.0);  // the last one collects fixed rows
-  reduction.multipliers(unbalanced, step.multipliers);
+  m_reduction->multipliers(unbalanced, step.multipliers);
   step.multipliers.pop_back();
   step.slope = m_load.dot(step.dx);
   for (std::size_t d = 0; d < step.dq.size(); ++d) step.slope += m_device_load[d].dot(step.dq[d]);
   predict(step);
   return step;
-}
-
-// The factor at hand, with rows and forces of today.
-bool Newton::reuse_factor() {
-  m_step = direction(make_reduction(&m_factor->reduction));
-  return m_step.dx.allFinite();
 }
 
 bool Newton::flies(const Step& step) const {
@@ -151,18 +93,49 @@ bool Newton::factorise(const Reduction& reduction, bool singular) {
   return factorise_shifted(reduction, singular);
 }
 
-// Factor and step at the assembled tangent; the active set is improved on the way.
+// The factor at hand with the rows and forces of today.
+void Newton::begin_iteration() {
+  Stopwatch watch(m_report.seconds_factor);
+  m_linearised->begin(Reduction(m_eq.blocks().count(), rows_of(m_factored), &m_linearised->factored()), m_load);
+}
+
+// The factor at hand for the active set; false: it does not do.
+bool Newton::serve() {
+  Stopwatch watch(m_report.seconds_factor);
+  const std::vector<NodeRow> rows = rows_of(m_active);
+  m_reduction.emplace(m_eq.blocks().count(), rows);
+  return m_linearised->serve(*m_reduction, rows, m_active.size());
+}
+
+bool Newton::make_ready(bool singular) {
+  if (m_linearised->has_factor() && !singular && serve()) return true;
+  if (!m_fresh) return false;
+  const Reduction reduction(m_eq.blocks().count(), rows_of(m_active));
+  if (!factorise(reduction, singular)) return false;
+  m_factored = m_active;
+  {
+    Stopwatch watch(m_report.seconds_factor);
+    m_linearised->take_factor(reduction);
+  }
+  begin_iteration();
+  return serve();
+}
+
+// The step at the linearisation at hand; the active set is improved on the way.
 bool Newton::find_step() {
-  if (!factorise_devices()) return false;
-  choose_active();
-  m_lost_stability = false;
+  if (!factorise_devices()) return false;   // cheap, and a stiff one does not bear a stale factor
+  if (m_fresh) {
+    choose_active();
+    m_lost_stability = false;
+  } else {
+    begin_iteration();
+  }
   bool singular = false;
   for (int change = 0, shifts = 0;;) {
-    const Reduction reduction = make_reduction();
-    if (!factorise(reduction, singular)) return false;
-    keep_factor(reduction);
-    m_step = direction(reduction);
+    if (!make_ready(singular)) return false;
+    m_step = direction();
     singular = flies(m_step) && ++shifts < max_shifts;
+    if (singular && !m_fresh) return false;
     if (singular) continue;
     if (!m_step.dx.allFinite()) return false;
     const std::vector<char> used = m_active;

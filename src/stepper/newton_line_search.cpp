@@ -7,6 +7,11 @@
 #include "stepper/sufficient_decrease.hpp"
 
 namespace brainshift {
+namespace {
+
+constexpr double closed_gap = 1e-13;   // diameters
+
+}  // namespace
 
 bool Newton::no_new_inversion(const Points& u, const Eigen::VectorXd& before) const {
   const Eigen::VectorXd now = m_eq.tissue().jacobians(u);
@@ -21,7 +26,7 @@ bool Newton::no_new_inversion(const Points& u, const Eigen::VectorXd& before) co
 // energy alone can judge a step.
 void Newton::make_feasible(double part, Points& u, std::vector<char>& touched) const {
   const ContactRows& contacts = m_eq.contacts();
-  const double slack = 1e-13 * m_eq.mesh().diameter();
+  const double slack = closed_gap * m_eq.mesh().diameter();
   touched = m_active;
   for (int sweep = 0; sweep < 20; ++sweep) {
     double worst = 0.0;
@@ -57,9 +62,12 @@ double Newton::search(const Step& step, MechanicalState& next) {
   Stopwatch watch(m_report.seconds_line_search);
   const Points& u0 = m_state.u;
   const Points external0 = m_forces.external;
-  const double energy0 = potential(u0, m_state.devices);
+  if (!m_potential) m_potential = potential(u0, m_state.devices);
+  const double energy0 = *m_potential;
   const double rows0 = merit_of_rows(m_state, step.weight);
   const Eigen::VectorXd jacobians = m_eq.tissue().jacobians(u0);
+  double pressed = step.weight * double(m_couplings.size());   // mN
+  for (double multiplier : step.multipliers) pressed += std::abs(multiplier);
   std::vector<char> touched;
   double part = 1.0;
   for (int attempt = 0; attempt < 30; ++attempt) {
@@ -78,11 +86,12 @@ double Newton::search(const Step& step, MechanicalState& next) {
       work += part * m_offset.devices[d].dot(step.dq[d]);
     }
     const double change = energy1 - energy0 - work + merit_of_rows(next, step.weight) - rows0;
-    // Rounding of energies, and of the gaps of ties that are as closed as they can be.
+    // Rounding of energies, and of the gaps of contacts and ties that are as closed as they can be.
     const double noise = 1e-12 * (std::abs(energy0) + std::abs(energy1) + std::abs(work)) +
-                         1e-13 * m_eq.mesh().diameter() * step.weight * double(m_couplings.size());
+                         closed_gap * m_eq.mesh().diameter() * pressed;
     if (sufficient_decrease(change, part * step.predicted, noise)) {
       m_active = touched;
+      m_potential = energy1;
       return part;
     }
     // Minimum of the parabola through value and slope at 0 and the value here, kept in [0.1, 0.5].

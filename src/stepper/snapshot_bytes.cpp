@@ -175,6 +175,8 @@ Bytes bytes_of(const Stepper::Snapshot& s) {
   w.put(s.next_device);
   put(w, s.wanted);
   put(w, s.solved);
+  w.put(s.open_force);
+  w.put(s.open_tie);
   return w.sealed(BytesKind::snapshot);
 }
 
@@ -206,6 +208,8 @@ std::shared_ptr<const Stepper::Snapshot> Stepper::read_snapshot(const Bytes& byt
   s->next_device = r.get<DeviceId>();
   s->wanted = get_settings(r, like);
   s->solved = get_settings(r, like);
+  s->open_force = r.get<double>();
+  s->open_tie = r.get<double>();
   r.expect_end();
   return s;
 }

@@ -33,6 +33,7 @@ class Solve {
   const Points& iterate() const { return m_newton.iterate().u; }
   void fail_by_exception(const char* call) noexcept;  // one has ended it
 
+  bool is_static() const { return !m_euler; }
   // What converged. Velocities are zero in statics.
   const MechanicalState& result() const { return m_balanced; }
   Points velocity() const;

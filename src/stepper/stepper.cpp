@@ -22,6 +22,18 @@ const char* to_string(Status status) {
   return "unknown";
 }
 
+StepperOptions within(double accuracy, const Mesh& mesh, StepperOptions options) {
+  if (!(accuracy > 0.0) || !std::isfinite(accuracy)) {
+    throw Error(ErrorCode::invalid_argument,
+                "the accuracy of " + text(accuracy) + " mm is not positive and finite");
+  }
+  // Steps of Newton's method shrink by half at least where the tangent serves again, far more as a rule.
+  constexpr double last_step = 0.2, force = 1e-2;
+  options.correction_tolerance = last_step * accuracy / mesh.diameter();
+  options.residual_tolerance = options.complementarity_tolerance = force;
+  return options;
+}
+
 Stepper::Stepper(Scene scene, StepperOptions options)
     : m_impl(std::make_unique<Impl>(std::move(scene), std::move(options))) {}
 Stepper::~Stepper() = default;

@@ -40,6 +40,7 @@ class Stepper::Snapshot {
   DeviceId next_device = 0;
   Settings wanted;   // by the host, for the next solve
   Settings solved;   // those u is in balance with
+  double open_force = 0.0, open_tie = 0.0;   // what its solve left open; 0 after a step in time
 };
 
 class Stepper::Impl {
@@ -112,7 +113,8 @@ class Stepper::Impl {
   }
 
   MechanicalState mechanical(const ContactRows& contacts) const {
-    MechanicalState m{m_state.u, std::vector<double>(contacts.size(), 0.0), {}};
+    MechanicalState m{m_state.u, std::vector<double>(contacts.size(), 0.0), {}, m_state.open_force,
+                      m_state.open_tie};
     for (const InsertedDevice& d : m_state.devices) m.devices.push_back(d.motion);
     for (std::size_t r = 0; r < m.multipliers.size(); ++r) {
       const auto found = m_state.multipliers.find(contacts.group_of(r).id);
@@ -132,6 +134,8 @@ class Stepper::Impl {
     for (std::size_t d = 0; d < m.devices.size(); ++d) next.devices[d].motion = m.devices[d];
     next.multipliers.clear();
     next.solved = open.settings;
+    next.open_force = open.solve.is_static() ? m.open_force : 0.0;
+    next.open_tie = open.solve.is_static() ? m.open_tie : 0.0;
     for (std::size_t r = 0; r < m.multipliers.size(); ++r) {
       const ConstraintGroup& group = contacts.group_of(r);
       Eigen::VectorXd& values = next.multipliers[group.id];

@@ -87,11 +87,33 @@ TEST(SpdSolver, TheComplianceIsThatOfDenseSolves) {
   const auto solver = make_spd_solver();
   solver->analyse(random.blocks);
   ASSERT_TRUE(solver->factorise(random.blocks));
-  const Eigen::MatrixXd found = solver->compliance(C);
+  solver->append(C.leftCols(2));
+  solver->append(C.rightCols(3));
+  solver->keep(2);                   // and once more what has been forgotten
+  solver->append(C.rightCols(3));
+  const Eigen::MatrixXd found = solver->compliance();
   const Eigen::MatrixXd exact = C.transpose() * random.dense.ldlt().solve(Eigen::MatrixXd(C));
   EXPECT_LT((found - exact).norm(), 1e-13 * exact.norm());
   EXPECT_EQ(found, found.transpose());
   EXPECT_EQ(found.col(2).norm(), 0.0);
+}
+
+TEST(SpdSolver, ASolveInTwoHalvesIsOne) {
+  const test::RandomMatrix random(150, 9);
+  std::vector<Eigen::Triplet<double>> entries{{449, 0, 2.0}, {0, 1, 1.0}, {1, 1, -1.0}, {200, 2, 0.5}};
+  SparseColumns C(450, 3);
+  C.setFromTriplets(entries.begin(), entries.end());
+  const auto solver = make_spd_solver();
+  solver->analyse(random.blocks);
+  ASSERT_TRUE(solver->factorise(random.blocks));
+  const Eigen::VectorXd b = Eigen::VectorXd::Random(450), a = Eigen::Vector3d(0.3, -2.0, 1.0);
+  const Eigen::VectorXd z = solver->forward(b);
+  const Eigen::VectorXd alone = solver->backward(z, {});
+  solver->append(C);
+  const Eigen::VectorXd both = solver->backward(z, a);
+  EXPECT_LT((random.dense * alone - b).norm(), 1e-13 * b.norm());
+  EXPECT_LT((random.dense * both - (b + C * a)).norm(), 1e-13 * b.norm());
+  EXPECT_LT((solver->project(z) - C.transpose() * alone).norm(), 1e-13 * alone.norm());
 }
 
 TEST(SpdSolver, SaysWhenAMatrixIsNotPositiveDefiniteAndServesAgain) {

@@ -45,6 +45,24 @@ TEST(Polar, survives_what_has_no_unique_rotation) {
   }
 }
 
+void expect_same(const Mat3& G, const std::string& name) {
+  const Polar polar = polar_decomposition(G);
+  const Stretch found = stretch(G);
+  EXPECT_LE((found.R - polar.R).norm(), 1e-11) << name;
+  const Mat3 D = polar.V * polar.strain.asDiagonal() * polar.V.transpose();
+  EXPECT_LE((found.D - D).norm(), 1e-13 * (G.norm() + D.norm())) << name;
+  EXPECT_EQ(found.D, found.D.transpose()) << name;
+}
+
+TEST(Polar, the_stretch_alone_is_the_same) {
+  for (const Sample& sample : samples()) expect_same(sample.G, sample.name);
+  std::mt19937 generator(8);
+  for (const Vec3& s : {Vec3(1.0, 1.0, 1.0), Vec3(1.2, 0.9, 0.8), Vec3(3.0, 1.0, 0.3), Vec3(0.2, 0.1, 0.05),
+                        Vec3(8.0, 1.0, 0.5), Vec3(1.0, 1.0, 1e-4), Vec3(1.3, 0.9, -0.5)}) {
+    for (int i = 0; i < 20; ++i) expect_same(with_stretches(s, generator), "stretched");
+  }
+}
+
 TEST(Polar, every_law_stays_finite_where_the_rotation_is_not_unique) {
   for (const Law law : all_laws) {
     if (!allows_inversion(law)) continue;

@@ -4,17 +4,14 @@
 
 #include <algorithm>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "brainshift/error.hpp"
-#include "linear/cholmod/compliance.hpp"
+#include "linear/cholmod/blas_turn.hpp"
+#include "linear/cholmod/columns.hpp"
 #include "linear/spd_solver.hpp"
 #include "threads/for_chunks.hpp"
-
-// Of OpenBLAS, 0: its serial build. Null with any other BLAS.
-extern "C" int openblas_get_parallel(void) __attribute__((weak));
 
 // Of OpenMP, in which CHOLMOD may be built. Null where nothing has loaded it.
 extern "C" int omp_get_max_active_levels(void) __attribute__((weak));
@@ -22,23 +19,6 @@ extern "C" void omp_set_max_active_levels(int) __attribute__((weak));
 
 namespace brainshift {
 namespace {
-
-// The serial build of OpenBLAS shares its buffers among threads without a lock: two threads in its
-// dtrsm, be it in two solvers, spoil each other's numbers. They take turns then.
-// docs/decisions/threads.md
-class BlasTurn {
- public:
-  BlasTurn() {
-    if (openblas_get_parallel && openblas_get_parallel() == 0) m_lock = std::unique_lock(mutex());
-  }
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex m;
-    return m;
-  }
-  std::unique_lock<std::mutex> m_lock;
-};
 
 // CHOLMOD's OpenMP loops stay on the calling thread: a team of its own (four threads, whatever machine and
 // host want) would spin on the cores of others and outlive the solve, and a child of the process would
@@ -94,7 +74,7 @@ class Workspace {
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
 
-  void solve(cholmod_factor* factor, Eigen::Ref<Eigen::MatrixXd> x) {
+  void solve(cholmod_factor* factor, Eigen::Ref<Eigen::MatrixXd> x, int system = CHOLMOD_A) {
     cholmod_dense b{};
     b.nrow = std::size_t(x.rows());
     b.ncol = std::size_t(x.cols());
@@ -105,7 +85,7 @@ class Workspace {
     b.dtype = CHOLMOD_DOUBLE;
     const NoTeam alone;
     const BlasTurn turn;
-    cholmod_solve2(CHOLMOD_A, factor, &b, nullptr, &m_solution, nullptr, &m_y, &m_e, &m_common);
+    cholmod_solve2(system, factor, &b, nullptr, &m_solution, nullptr, &m_y, &m_e, &m_common);
     if (m_common.status < CHOLMOD_OK) fail("solve", m_common.status);
     x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(m_solution->x), x.rows(),
                                           x.cols());
@@ -128,6 +108,7 @@ class CholmodSolver final : public SpdSolver {
 
   void analyse(const BlockMatrix& matrix) override {
     cholmod_free_factor(&m_factor, &m_common);
+    m_columns.clear();
     cholmod_sparse a = view(matrix);
     const NoTeam alone;
     m_factor = cholmod_analyze(&a, &m_common);
@@ -138,6 +119,7 @@ class CholmodSolver final : public SpdSolver {
     cholmod_sparse a = view(matrix);
     const NoTeam alone;
     const BlasTurn turn;
+    m_columns.clear();
     cholmod_factorize(&a, m_factor, &m_common);
     if (m_common.status == CHOLMOD_NOT_POSDEF) return false;
     if (m_common.status < CHOLMOD_OK) fail("factorisation", m_common.status);
@@ -157,9 +139,27 @@ class CholmodSolver final : public SpdSolver {
     });
   }
 
-  Eigen::MatrixXd compliance(const SparseColumns& C) override {
+  void append(const SparseColumns& C) override {
     const BlasTurn turn;
-    return supernodal_compliance(*m_factor, C);
+    m_columns.append(*m_factor, C);
+  }
+  void keep(Eigen::Index count) override { m_columns.keep(count); }
+  Eigen::Index column_count() const override { return m_columns.count(); }
+  const Eigen::MatrixXd& compliance() const override { return m_columns.product(); }
+
+  Eigen::VectorXd forward(const Eigen::VectorXd& b) override {
+    Eigen::VectorXd z = b;
+    halves().solve(m_factor, z, CHOLMOD_P);
+    halves().solve(m_factor, z, CHOLMOD_L);
+    return z;
+  }
+  Eigen::VectorXd project(const Eigen::VectorXd& z) const override { return m_columns.project(z); }
+  Eigen::VectorXd backward(const Eigen::VectorXd& z, const Eigen::VectorXd& a) override {
+    Eigen::VectorXd x = z;
+    m_columns.add(a, x);
+    halves().solve(m_factor, x, CHOLMOD_Lt);
+    halves().solve(m_factor, x, CHOLMOD_Pt);
+    return x;
   }
 
   void set_threads(int threads) override { m_threads = threads; }
@@ -182,8 +182,14 @@ class CholmodSolver final : public SpdSolver {
     return a;
   }
 
+  Workspace& halves() {
+    if (m_workspaces.empty()) m_workspaces.push_back(std::make_unique<Workspace>());
+    return *m_workspaces.front();
+  }
+
   cholmod_common m_common{};
   cholmod_factor* m_factor = nullptr;
+  FactorColumns m_columns;
   std::vector<std::unique_ptr<Workspace>> m_workspaces;   // one per chunk of columns
   int m_threads = 1;
 };

@@ -16,6 +16,7 @@ class EigenSolver final : public SpdSolver {
   }
 
   bool factorise(const BlockMatrix& matrix) override {
+    keep(0);
     m_llt.factorize(view(matrix));
     if (m_llt.info() != Eigen::Success) return false;
     m_nonzeros = double(m_llt.matrixL().nestedExpression().nonZeros());
@@ -27,11 +28,28 @@ class EigenSolver final : public SpdSolver {
                [&](Index c) { x.col(c) = m_llt.solve(x.col(c)).eval(); });
   }
 
-  Eigen::MatrixXd compliance(const SparseColumns& C) override {
-    Eigen::MatrixXd x = C;
-    solve(x);
-    Eigen::MatrixXd product = C.transpose() * x;
-    return 0.5 * (product + product.transpose());
+  void append(const SparseColumns& C) override {
+    const auto before = m_columns.cols();
+    Eigen::MatrixXd more = C;
+    for_chunks(m_threads, Index(more.cols()),
+               [&](Index c) { more.col(c) = m_llt.matrixL().solve(more.col(c)).eval(); });
+    m_columns.conservativeResize(C.rows(), before + C.cols());
+    m_columns.rightCols(C.cols()) = more;
+    m_product.conservativeResize(m_columns.cols(), m_columns.cols());
+    m_product.bottomRows(C.cols()) = more.transpose() * m_columns;
+    m_product.topRightCorner(before, C.cols()) = m_product.bottomLeftCorner(C.cols(), before).transpose();
+  }
+  void keep(Eigen::Index count) override {
+    m_columns.conservativeResize(m_columns.rows(), count);
+    m_product.conservativeResize(count, count);
+  }
+  Eigen::Index column_count() const override { return m_columns.cols(); }
+  const Eigen::MatrixXd& compliance() const override { return m_product; }
+
+  Eigen::VectorXd forward(const Eigen::VectorXd& b) override { return m_llt.matrixL().solve(b); }
+  Eigen::VectorXd project(const Eigen::VectorXd& z) const override { return m_columns.transpose() * z; }
+  Eigen::VectorXd backward(const Eigen::VectorXd& z, const Eigen::VectorXd& a) override {
+    return m_llt.matrixU().solve(a.size() > 0 ? Eigen::VectorXd(z + m_columns * a) : z);
   }
 
   void set_threads(int threads) override { m_threads = threads; }
@@ -50,6 +68,7 @@ class EigenSolver final : public SpdSolver {
 
   // The matrix comes in nested-dissection order, so none is chosen here.
   Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> m_llt;
+  Eigen::MatrixXd m_columns, m_product;   // L^-1 C and C^T A^-1 C
   double m_nonzeros = 0.0;
   int m_threads = 1;
 };

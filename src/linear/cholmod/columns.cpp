@@ -1,0 +1,191 @@
+#include "linear/cholmod/columns.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "brainshift/error.hpp"
+
+// Of the BLAS that CHOLMOD stands on.
+extern "C" {
+void dtrsm_(const char* side, const char* uplo, const char* transa, const char* diag, const int* m,
+            const int* n, const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
+void dgemm_(const char* transa, const char* transb, const int* m, const int* n, const int* k,
+            const double* alpha, const double* a, const int* lda, const double* b, const int* ldb,
+            const double* beta, double* c, const int* ldc);
+}
+
+namespace brainshift {
+namespace {
+
+constexpr double one = 1.0, zero = 0.0;
+
+struct Supernode {
+  int first, columns, rows;   // rows: those of its columns, then those below
+  const int* row;
+  const double* x;
+};
+
+class Supernodes {
+ public:
+  explicit Supernodes(const cholmod_factor& f)
+      : m_super(static_cast<const int*>(f.super)),
+        m_pi(static_cast<const int*>(f.pi)),
+        m_px(static_cast<const int*>(f.px)),
+        m_s(static_cast<const int*>(f.s)),
+        m_x(static_cast<const double*>(f.x)),
+        m_of(f.n) {
+    for (int s = 0; s < int(f.nsuper); ++s) {
+      std::fill(m_of.begin() + m_super[s], m_of.begin() + m_super[s + 1], s);
+    }
+  }
+  Supernode operator[](int s) const {
+    return {m_super[s], m_super[s + 1] - m_super[s], m_pi[s + 1] - m_pi[s], m_s + m_pi[s],
+            m_x + m_px[s]};
+  }
+  int of(int column) const { return m_of[std::size_t(column)]; }
+
+ private:
+  const int *m_super, *m_pi, *m_px, *m_s;
+  const double* m_x;
+  std::vector<int> m_of;   // columns
+};
+
+using Columns = std::vector<int>;
+
+void unite(const Columns& more, Columns& all) {
+  Columns both;
+  std::set_union(all.begin(), all.end(), more.begin(), more.end(), std::back_inserter(both));
+  all = std::move(both);
+}
+
+// What is still to be taken off the right sides: transposed, so that what belongs to a row lies together
+// and rows out of reach are never touched.
+class Rest {
+ public:
+  Rest(std::size_t rows, int columns) : m_rows(rows), m_columns(columns) {}
+  Eigen::VectorXd& operator[](int i) {
+    Eigen::VectorXd& row = m_rows[std::size_t(i)];
+    if (row.size() == 0) row.setZero(m_columns);
+    return row;
+  }
+  void forget(int i) { m_rows[std::size_t(i)].resize(0); }
+
+ private:
+  std::vector<Eigen::VectorXd> m_rows;
+  int m_columns;
+};
+
+}  // namespace
+
+void FactorColumns::clear() {
+  m_parts.clear();
+  m_product.resize(0, 0);
+  m_count = 0;
+}
+
+void FactorColumns::keep(Eigen::Index count) {
+  for (std::vector<Part>& parts : m_parts) {
+    while (!parts.empty() && parts.back().columns.front() >= count) parts.pop_back();
+  }
+  m_product.conservativeResize(count, count);
+  m_count = count;
+}
+
+// Products of a new part of supernode s with itself and with what stands there already.
+void FactorColumns::multiply(const Part& part, int s) {
+  const int width = int(part.columns.size()), rows = int(part.y.cols());
+  Eigen::MatrixXd products;
+  const auto add = [&](const Part& other) {
+    const int others = int(other.columns.size());
+    products.resize(width, others);
+    dgemm_("N", "T", &width, &others, &rows, &one, part.y.data(), &width, other.y.data(), &others, &zero,
+           products.data(), &width);
+    for (int b = 0; b < others; ++b) {
+      for (int a = 0; a < width; ++a) {
+        m_product(part.columns[std::size_t(a)], other.columns[std::size_t(b)]) += products(a, b);
+      }
+    }
+  };
+  for (const Part& other : m_parts[std::size_t(s)]) add(other);
+  add(part);
+}
+
+void FactorColumns::append(const cholmod_factor& factor, const SparseColumns& C) {
+  if (!factor.is_super || !factor.x || factor.xtype != CHOLMOD_REAL) {
+    throw Error(ErrorCode::internal, "columns need a supernodal factor");
+  }
+  const Supernodes supernodes(factor);
+  const int n = int(factor.n), count = int(C.cols()), before = int(m_count);
+  m_parts.resize(factor.nsuper);
+  m_count += count;
+  m_product.conservativeResizeLike(Eigen::MatrixXd::Zero(m_count, m_count));
+  std::vector<int> place(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) place[std::size_t(static_cast<const int*>(factor.Perm)[i])] = i;
+
+  std::vector<Columns> reached(factor.nsuper);
+  Rest rest(std::size_t(n), count);
+  for (int c = 0; c < count; ++c) {
+    for (SparseColumns::InnerIterator it(C, c); it; ++it) {
+      const int i = place[std::size_t(it.row())];
+      rest[i][c] += it.value();
+      Columns& columns = reached[std::size_t(supernodes.of(i))];
+      if (columns.empty() || columns.back() != c) columns.push_back(c);
+    }
+  }
+  Eigen::MatrixXd below;
+  for (int s = 0; s < int(factor.nsuper); ++s) {
+    const Columns active = std::move(reached[std::size_t(s)]);
+    if (active.empty()) continue;
+    const Supernode node = supernodes[s];
+    const int width = int(active.size()), down = node.rows - node.columns;
+    Part part{node.first, active, Eigen::MatrixXd(width, node.columns)};
+    for (int k = 0; k < node.columns; ++k) {
+      const Eigen::VectorXd& row = rest[node.first + k];
+      for (int a = 0; a < width; ++a) part.y(a, k) = row[active[std::size_t(a)]];
+      rest.forget(node.first + k);
+    }
+    for (int& c : part.columns) c += before;
+    dtrsm_("R", "L", "T", "N", &width, &node.columns, &one, node.x, &node.rows, part.y.data(), &width);
+    multiply(part, s);
+    if (down > 0) {
+      below.resize(width, down);
+      dgemm_("N", "T", &width, &down, &node.columns, &one, part.y.data(), &width, node.x + node.columns,
+             &node.rows, &zero, below.data(), &width);
+      for (int k = 0; k < down; ++k) {
+        Eigen::VectorXd& row = rest[node.row[node.columns + k]];
+        for (int a = 0; a < width; ++a) row[active[std::size_t(a)]] -= below(a, k);
+      }
+      unite(active, reached[std::size_t(supernodes.of(node.row[node.columns]))]);
+    }
+    m_parts[std::size_t(s)].push_back(std::move(part));
+  }
+  m_product.topRightCorner(before, count) = m_product.bottomLeftCorner(count, before).transpose();
+  for (Eigen::Index c = before; c < m_count; ++c) {   // rounding of the two triangles may differ
+    for (Eigen::Index r = before; r < c; ++r) m_product(r, c) = m_product(c, r);
+  }
+}
+
+Eigen::VectorXd FactorColumns::project(const Eigen::VectorXd& z) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(m_count);
+  for (const std::vector<Part>& parts : m_parts) {
+    for (const Part& part : parts) {
+      const Eigen::VectorXd products = part.y * z.segment(part.first, part.y.cols());
+      for (std::size_t a = 0; a < part.columns.size(); ++a) {
+        result[part.columns[a]] += products[Eigen::Index(a)];
+      }
+    }
+  }
+  return result;
+}
+
+void FactorColumns::add(const Eigen::VectorXd& a, Eigen::VectorXd& z) const {
+  for (const std::vector<Part>& parts : m_parts) {
+    for (const Part& part : parts) {
+      Eigen::VectorXd picked(part.y.rows());
+      for (std::size_t k = 0; k < part.columns.size(); ++k) picked[Eigen::Index(k)] = a[part.columns[k]];
+      z.segment(part.first, part.y.cols()) += part.y.transpose() * picked;
+    }
+  }
+}
+
+}  // namespace brainshift

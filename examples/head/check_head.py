@@ -9,9 +9,7 @@ import sys
 
 import numpy as np
 
-import headjson
-import trimesh
-import vtkxml
+from chain import headjson, trimesh, vtkxml
 
 LITERATURE = {"convexity": "2.9", "frontal": "3.2", "vertex": "3.1", "occipital": "2.5", "base": "-"}
 

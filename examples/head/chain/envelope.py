@@ -11,9 +11,10 @@ BRAIN_MARGIN = 1.0  # fluid kept between brain and wall everywhere
 VAULT_OFFSET, BASE_OFFSET = 2.5, 0.5  # between the closed hull and the skull
 
 
-def smooth_solid(solid, unit=1.0):
-    """Tissue closed over sulci, holes filled, without what sticks out or lies apart."""
-    closed = ndimage.binary_fill_holes(closing(solid, 3.0 / unit))
+def smooth_solid(solid, unit=1.0, radius=3.0):
+    """Tissue closed over sulci by a ball of `radius`, holes filled, without what sticks out or lies
+    apart."""
+    closed = ndimage.binary_fill_holes(closing(solid, radius / unit))
     return largest(opening(closed, 1.5 / unit))
 
 

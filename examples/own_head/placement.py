@@ -8,10 +8,11 @@ import numpy as np
 
 import generic
 from chain import midsurface
-from labels import CEREBELLUM, CEREBRUM
+from labels import BRAINSTEM, CEREBELLUM, CEREBRUM
 from problem import Problem, point
 
 WIDEST_FISSURE = 15.0  # mm between left and right labels that face each other across it
+NARROWEST_STEM = 8.0   # mm: columns at the brainstem's front and back say little about its middle
 
 
 @dataclass
@@ -28,11 +29,16 @@ class Frame:
         return np.asarray(vectors, float) @ self.matrix[:3, :3]
 
 
+def across(image):
+    """The voxel axis next to x, and the voxels' width along it (mm)."""
+    axis = int(np.argmax(np.abs(image.affine[0, :3])))
+    return axis, float(np.linalg.norm(image.affine[:3, axis]))
+
+
 def fissure_points(image, parts):
     """World points half way between left and right labels that face each other along the voxel axis
     next to x."""
-    axis = int(np.argmax(np.abs(image.affine[0, :3])))
-    width = float(np.linalg.norm(image.affine[:3, axis]))
+    axis, width = across(image)
     side = np.where(parts.kind == CEREBRUM, parts.side, 0)
     side = np.moveaxis(side if image.affine[0, axis] > 0 else -side, axis, 0)
     # In each column: the last voxel of the side that comes first, the first of the other one.
@@ -41,9 +47,23 @@ def fissure_points(image, parts):
     first = np.where(side > 0, index, len(side)).min(axis=0)
     facing = (last >= 0) & (first < len(side)) & (last < first) & (
         (first - last - 1) * width < WIDEST_FISSURE)
-    b, c = np.nonzero(facing)
-    voxels = np.column_stack([(last + first)[facing] / 2, b, c])
-    return image.world(np.insert(voxels[:, 1:], axis, voxels[:, 0], axis=1))
+    return middles(image, axis, (last + first) / 2, facing)
+
+
+def stem_points(image, parts):
+    """World points half way between left and right border of the brainstem, along the same axis: the
+    fissure does not reach down there, and a polynomial goes astray where no points hold it."""
+    axis, width = across(image)
+    stem = np.moveaxis(parts.kind == BRAINSTEM, axis, 0)
+    first = np.argmax(stem, axis=0)
+    last = len(stem) - 1 - np.argmax(stem[::-1], axis=0)
+    wide = stem.any(axis=0) & ((last - first + 1) * width > NARROWEST_STEM)
+    return middles(image, axis, (first + last) / 2, wide)
+
+
+def middles(image, axis, middle, chosen):
+    """World points at `middle` along the axis, in the chosen columns of voxels."""
+    return image.world(np.insert(np.argwhere(chosen).astype(float), axis, middle[chosen], axis=1))
 
 
 def fissure_plane(path, points):

@@ -161,7 +161,9 @@ def derive(image, volumes, frame, mid, mid_rms, pc, shape, optic, radius):
     edge, sinus = carried_falx(shape, box, bridge)
     notes += [note, "the falx is derived: on the sheet between the halves, its free edge that of the generic "
                     "head by Talairach's proportions"]
-    if optic is None:
+    if optic is not None:
+        optic = frame.to_head(optic)
+    else:
         optic = shape.box.map_to(box, shape.optic)
         notes.append("the optic chiasm is the generic head's by Talairach's proportions")
     low = volumes.grid.origin

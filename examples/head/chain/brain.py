@@ -72,6 +72,41 @@ def split(nodes, tets, labels):
     return np.vstack(new_nodes), np.vstack(new_tets), np.concatenate(regions), pair
 
 
+def part_pinches(nodes, tets, regions, pair):
+    """Where parts of a half touch in one node only, all but the largest get a node of their own: they
+    part there without a gap. A half stays one piece if it is one through faces."""
+    nodes, tets, pair, added = list(nodes), tets.copy(), list(pair), 0
+    for label in (1, 2):
+        surface = trimesh.boundary_faces(tets[regions == label])[0]
+        for node in trimesh.pinched_vertices(surface):
+            around = np.flatnonzero((tets == node).any(axis=1))
+            groups = fans(tets[around], node)
+            for group in groups[1:]:
+                ids = around[group]
+                tets[ids] = np.where(tets[ids] == node, len(nodes), tets[ids])
+                nodes.append(nodes[node])
+                pair.append(-1)
+                added += 1
+    if added:
+        print(f"  {added} nodes added where parts of a half touched in one node")
+    return np.array(nodes), tets, np.array(pair)
+
+
+def fans(tets, node):
+    """Tets around a node, grouped by the faces they share at it; the largest group first."""
+    owner, links = {}, []
+    for t, tet in enumerate(tets):
+        others = [k for k in tet if k != node]
+        for k in range(3):
+            face = tuple(sorted(others[:k] + others[k + 1:]))
+            if face in owner:
+                links.append((owner[face], t))
+            owner[face] = t
+    part = trimesh.components(len(tets), np.array(links).reshape(-1, 2).astype(int))
+    groups = [np.flatnonzero(part == k) for k in np.unique(part)]
+    return sorted(groups, key=len, reverse=True)
+
+
 def snap_to_midsurface(nodes, tets, labels, mid):
     """Puts the nodes common to both labels exactly on x = x_m (they lie on it to 1e-5 mm)."""
     common = np.intersect1d(tets[labels == 1], tets[labels == 2])
@@ -119,4 +154,5 @@ def assemble(path, anatomy):
     nodes[np.abs(nodes[:, 2] - z_cut) < 1e-2, 2] = z_cut  # CGAL finds the cut by bisection
     nodes = snap_to_midsurface(nodes, tets, labels, mid)
     nodes, tets, regions, pair = split(nodes, tets, labels)
+    nodes, tets, pair = part_pinches(nodes, tets, regions, pair)
     return nodes, tets, regions, tags(nodes, tets, regions, pair, anatomy)

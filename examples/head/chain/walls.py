@@ -73,6 +73,8 @@ def falx(anatomy, size=5.0):
     triangles = triangles.reshape(-1, 3)
     yz, free = yz[used], np.concatenate([free, np.zeros(len(inner), bool)])[used]
     points = domain.lift(anatomy.mid, yz)
+    # Where two points of the border fell on one of the free edge there is a triangle without area.
+    triangles = triangles[trimesh.areas(points, triangles) > 1e-3]
     left = trimesh.normals_areas(points, triangles)[0][:, 0] < 0
     triangles[left] = triangles[left][:, ::-1]
     return points, triangles, free

@@ -121,6 +121,9 @@ def goals_of(plan, lines, frame, landmarks, sheet, anatomy):
         direction = (entry - target) / np.linalg.norm(entry - target)
         check_way(line, side, target, direction, sheet, anatomy)
         goals[side] = (target, direction)
+        off = target - landmarks["MCP"]
+        plan.notes.append(f"the {side} target lies {abs(off[0]):.1f} mm lateral, {off[1]:+.1f} mm along and "
+                          f"{off[2]:+.1f} mm above the commissures from their middle")
     if not goals:
         plan.notes.append("no trajectory is given: the tips go to the STN, 60 degrees above the commissures, "
                           "20 degrees to the side")
@@ -149,7 +152,7 @@ def make_head(options, work, out):
     plan = plans.read(options.plan)
     frame, sheet, rms = place(image, parts, plan, generic_head)
     landmarks = plans.complete(plan, frame, parts.landmarks)
-    lines = plans.assign(plan, frame, lambda p: midsurface.evaluate(sheet, p[1], p[2]))
+    lines = plans.assign(plan, frame, lambda p: placement.middle_at(sheet, p))
     notes += plan.notes
     plan.notes = []
     say(notes)

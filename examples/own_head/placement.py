@@ -133,6 +133,12 @@ def check_commissures(ac, pc, plane, sources):
                       "place them again")
 
 
+def middle_at(sheet, position):
+    """x of the mid-surface beside a point that may lie anywhere: outside a head the polynomial runs wild."""
+    y, z = np.clip(position[1], -120, 90), np.clip(position[2], -80, 100)
+    return float(midsurface.evaluate(sheet, y, z))
+
+
 def midline_sheet(points, frame):
     """The curved mid-surface in the head frame: coefficients, rms."""
     return midsurface.rounded(*midsurface.robust(frame.to_head(points)))

@@ -6,9 +6,9 @@ import unittest
 import nibabel
 import numpy as np
 
+from support import QUICK, WORK, Case, phantom, run  # first: it says where the example's modules are
 import make_phantom
 import markups
-from support import QUICK, WORK, Case, phantom, run
 
 FILES = ("brain.vtu", "cavity.vtp", "falx.vtp", "head.json")
 LABELS = WORK / "out/phantom/labels.nii.gz"

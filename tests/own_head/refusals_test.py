@@ -5,9 +5,9 @@ import unittest
 import nibabel
 import numpy as np
 
+from support import WORK, Case, ball, phantom, run, save  # first: it says where the example's modules are
 import make_phantom
 import markups
-from support import WORK, Case, ball, phantom, run, save
 
 LABELS = WORK / "out/phantom/labels.nii.gz"
 PLAN = WORK / "out/phantom/plan_lps"

@@ -6,13 +6,13 @@ import nibabel
 import numpy as np
 from scipy.ndimage import map_coordinates
 
+from support import WORK  # first: it says where the example's modules are
 import make_phantom
 import markups
 import placement
 import plan as plans
 import results
 from chain import trimesh
-from support import WORK
 from vtk.util.numpy_support import vtk_to_numpy
 
 OUT = WORK / "out/my_head"

@@ -4,6 +4,7 @@ examples/own_head/run, which gives --mesher and --dbs; README.md says what goes 
 import argparse
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -220,11 +221,15 @@ def operate(options, folder, sides):
     lines = []
     with subprocess.Popen([*command, *options.dbs_options], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           text=True) as process:
-        for line in process.stdout:
-            line = line.replace(str(folder), str(options.out))  # where it will be
-            print(line, end="", flush=True)
-            lines.append(line)
-        message = process.stderr.read().strip()
+        try:
+            for line in process.stdout:
+                line = line.replace(str(folder), str(options.out))  # where it will be
+                print(line, end="", flush=True)
+                lines.append(line)
+            message = process.stderr.read().strip()
+        except KeyboardInterrupt:
+            process.kill()
+            raise
     if process.returncode not in (0, 2):
         raise Problem(f"the procedure cannot be done: {message.removeprefix('dbs: ') or 'dbs ended early'}")
     if not (folder / "procedure" / "stages.json").exists():
@@ -265,9 +270,17 @@ def run(options):
     return 0
 
 
+def interrupt(*_):
+    raise KeyboardInterrupt
+
+
 def main():
+    signal.signal(signal.SIGTERM, interrupt)  # as Ctrl-C: what is half-written is taken away
     try:
         return run(read_options(sys.argv[1:]))
+    except KeyboardInterrupt:
+        print("own_head: interrupted; nothing was written", file=sys.stderr)
+        return 130
     except Problem as problem:
         print(f"own_head: {problem}", file=sys.stderr)
         return 1

@@ -1,11 +1,12 @@
 """What cannot make a head is refused in one sentence, and nothing half-written stays."""
 import json
+import subprocess
 import unittest
 
 import nibabel
 import numpy as np
 
-from support import WORK, Case, ball, phantom, run, save  # first: it says where the example's modules are
+from support import EXAMPLE, QUICK, WORK, Case, ball, phantom, run, save  # first: it says where the example's modules are
 import make_phantom
 import markups
 
@@ -189,6 +190,20 @@ class Folders(Case):
         self.assertEqual(result.returncode, 1)
         self.assertIn("is not a folder of earlier results", result.stderr)
         self.assertEqual((out / "thesis.txt").read_text(), "mine")
+
+    def test_an_interrupted_run_leaves_nothing(self):
+        before = sorted(self.folder.iterdir())
+        with subprocess.Popen([EXAMPLE / "run", LABELS, "--out", self.folder / "out", *QUICK],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            for line in process.stdout:
+                if line.startswith("== skull"):  # something is there by now
+                    self.assertNotEqual(sorted(self.folder.iterdir()), before)
+                    process.terminate()
+                    break
+            _, said = process.communicate()
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual(said, "own_head: interrupted; nothing was written\n")
+        self.assertEqual(sorted(self.folder.iterdir()), before)
 
     def test_a_procedure_that_cannot_be_done_leaves_nothing(self):
         before = sorted(self.folder.iterdir())

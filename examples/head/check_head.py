@@ -120,8 +120,9 @@ def check_tags(table, head, nodes, tags):
             for ck, (i, j) in zip(c, powers))
     table.row("  off the mid-surface polynomial (mm)", np.abs(x - nodes[on_mid, 0]).max(), 0, 1e-6)
     # Labels end on voxels, so that the middle between them is known less well than on an image.
-    table.row("mid-surface residual in the image (mm)", head["segmentation"]["midsurface_rms"],
-              0, 1 if "scale" in head else 2)
+    where, limit = ("T1 image", 1) if "scale" in head else ("labels", 2)
+    table.row(f"mid-surface residual in the {where} (mm)", head["segmentation"]["midsurface_rms"],
+              0, limit)
     cut = head["stem_cut"]["point"][2]
     stem = np.flatnonzero(tags["stem"])
     table.row("nodes on the brainstem's cut", len(stem), 4)

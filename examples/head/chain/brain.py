@@ -76,7 +76,7 @@ def part_pinches(nodes, tets, regions, pair):
     """Where parts of a half touch in one node only, all but the largest get a node of their own: they
     part there without a gap. A half stays one piece if it is one through faces."""
     nodes, tets, pair, added = list(nodes), tets.copy(), list(pair), 0
-    for label in (1, 2):
+    for label in np.unique(regions):
         surface = trimesh.boundary_faces(tets[regions == label])[0]
         for node in trimesh.pinched_vertices(surface):
             around = np.flatnonzero((tets == node).any(axis=1))

@@ -13,6 +13,7 @@ Groups (default: core):
          Siconos for a cross-check of complementarity problems, abidiff for the ABI of the C face,
          Doxygen for the reference
   data   what examples/head needs to make the head anew: volumes, CGAL, Python packages
+  own_head  what examples/own_head needs: CGAL, Python packages (nibabel, VTK)
   fuzz   clang with libFuzzer and clang-tidy, for tests/robustness
   docs   what draws pictures and charts: VTK, matplotlib, a virtual X server
   bench  Google Benchmark
@@ -58,6 +59,16 @@ python3-numpy|python:numpy|numpy
 python3-scipy|python:scipy|scipy
 python3-skimage|python:skimage|scikit-image
 python3-matplotlib|python:matplotlib|matplotlib
+python3-vtk9|python:vtk|VTK 9 for Python
+END
+      ;;
+    own_head) cat <<'END'
+libcgal-dev|header:CGAL/version.h|CGAL 5
+libboost-dev|header:boost/version.hpp|Boost
+python3-nibabel|python:nibabel|nibabel
+python3-numpy|python:numpy|numpy
+python3-scipy|python:scipy|scipy
+python3-skimage|python:skimage|scikit-image
 python3-vtk9|python:vtk|VTK 9 for Python
 END
       ;;
@@ -203,8 +214,8 @@ main() {
   for group in "$@"; do
     case "$group" in
       -h | --help) usage; exit 0 ;;
-      core | test | data | fuzz | docs | bench) ;;
-      *) echo "install-deps: unknown group '$group'; known: core test data fuzz docs" >&2; exit 2 ;;
+      core | test | data | own_head | fuzz | docs | bench) ;;
+      *) echo "install-deps: unknown group '$group'; known: core test data own_head fuzz docs bench" >&2; exit 2 ;;
     esac
   done
   [ $# -gt 0 ] || set -- core

@@ -17,15 +17,12 @@ import scipy.ndimage as ndimage
 from skimage.segmentation import watershed
 
 import frame
-import midsurface
-from volume import (closing, dilate, erode, largest, load, mni_axes, opening, smooth_distance,
-                    voxel)
+import valley
+from chain import envelope
+from chain.volume import closing, dilate, erode, largest, opening, smooth_distance
+from template import load, mni_axes, voxel
 
 TISSUE = 62  # T1 value between cerebrospinal fluid (about 35) and grey matter (about 85)
-
-
-BRAIN_MARGIN = 1.0  # voxels of fluid kept between brain and wall everywhere
-VAULT_OFFSET, BASE_OFFSET = 2.5, 0.5  # voxels between the closed hull and the skull
 
 
 def tissue_mask(t1, extracted):
@@ -79,31 +76,10 @@ def brain_distance(labels, t1):
     below the cut so that the cut face is a clean section."""
     z = mni_axes(t1.shape)[2]
     solid = (labels == 1) | (labels == 3) | ventricles(t1)
-    solid = largest(opening(ndimage.binary_fill_holes(closing(solid, 3.0)), 1.5))
+    solid = envelope.smooth_solid(solid)
     floor = voxel((0, 0, frame.STEM_CUT_MNI - 1))[2]
     solid[:, :, :floor] = solid[:, :, floor:floor + 1]
     return np.maximum(smooth_distance(solid, 1.6), frame.STEM_CUT_MNI - 10 - z)
-
-
-def cavity_distance(tissue, brain, obstacle):
-    """Inner skull: closed hull of the whole brain plus the fluid that lies on it.
-
-    A ball of 15 mm suits the convexity; at the base it would swallow the sphenoid wings and the
-    petrous bones, so a smaller one is used there. How far the skull is cannot be seen on T1 (fluid
-    and inner table are both dark over 3-5 mm outside the cortex). VAULT_OFFSET is chosen for a mean
-    gap of the convexity near the 2.9 mm of the literature; at the base the brain lies on the bone."""
-    z = mni_axes(tissue.shape)[2]
-    whole = tissue | (brain < 0)
-    hull = (closing(whole, 15.0) & (z > -5)) | closing(whole, 6.0)
-    t = np.clip((z + 20) / 25, 0, 1)
-    offset = BASE_OFFSET + (VAULT_OFFSET - BASE_OFFSET) * t**2 * (3 - 2 * t)
-    skull = smooth_distance(hull, 2.5) - offset
-    # Thin fingers without brain in them (between petrous bone and cerebellum) are cut off.
-    cavity = opening((skull < 0) & (obstacle > 0), 4.0) | (brain < BRAIN_MARGIN)
-    cavity &= z > frame.CAVITY_FLOOR_MNI
-    # Smoothing a mask loses some of the margin; where it does, the brain's own distance decides.
-    return np.minimum(smooth_distance(cavity, 2.0),
-                      np.maximum(brain - BRAIN_MARGIN, frame.CAVITY_FLOOR_MNI - z))
 
 
 def in_mm(distance):
@@ -121,10 +97,11 @@ def main(work):
     print("cerebrum, cerebellum, brainstem (cm3, MNI):",
           *(f"{np.sum(labels == k) / 1e3:.0f}" for k in (1, 2, 3)), flush=True)
     brain = brain_distance(labels, t1)
-    cerebellum = smooth_distance(closing(labels == 2, 3.0), 1.6)
-    obstacle = ndimage.gaussian_filter((cerebellum - brain) / 2, 1.0)
-    cavity = cavity_distance(tissue, brain, obstacle)
-    mid, rms = midsurface.fit(t1, cavity < -2)
+    obstacle = envelope.tentorium_distance(labels == 2, brain)
+    z = mni_axes(t1.shape)[2]
+    skull = envelope.hull_distance(tissue | (brain < 0), z - frame.AC[2])
+    cavity = envelope.cavity_distance(skull, brain, obstacle, frame.CAVITY_FLOOR_MNI - z)
+    mid, rms = valley.fit(t1, cavity < -2)
     print(f"mid-surface: residual {rms:.2f} mm rms", flush=True)
     pathlib.Path(work).mkdir(parents=True, exist_ok=True)
     np.savez_compressed(pathlib.Path(work) / "segmentation.npz", t1=t1.astype(np.uint8),

@@ -5,8 +5,9 @@
 //
 // With "surface" the tets are not improved: only the facets will be used.
 //
-// DOMAIN (text): dims, origin, spacing, floor, 15 coefficients of x_m, name of the raw float32 file
-// (z fastest), number of protected polylines, and per polyline its number of points and the points.
+// DOMAIN (text): dims, origin, spacing, floor, a point inside and a radius about it that holds the body,
+// 15 coefficients of x_m, name of the raw float32 file (z fastest), number of protected polylines, and
+// per polyline its number of points and the points.
 // OUTPUT (text): "nodes n" with x y z per line, "tets m" with four nodes and the label per line
 // (1 left, 2 right). Lengths in mm.
 //
@@ -51,6 +52,8 @@ class Body {
     for (int& n : m_dims) in >> n;
     for (double& o : m_origin) in >> o;
     in >> m_spacing >> m_floor;
+    for (double& c : m_centre) in >> c;
+    in >> m_radius;
     for (double& c : m_mid) in >> c;
     std::string raw;
     std::size_t count = 0;
@@ -70,7 +73,7 @@ class Body {
 
   // A point near the middle of the body; CGAL shoots its first rays from there.
   Kernel::Sphere_3 bounding_sphere() const {
-    return Kernel::Sphere_3(Point(0, -15, 10), 130. * 130.);
+    return Kernel::Sphere_3(Point(m_centre[0], m_centre[1], m_centre[2]), m_radius * m_radius);
   }
   const std::vector<Polyline>& polylines() const { return m_polylines; }
 
@@ -124,6 +127,8 @@ class Body {
   std::array<int, 3> m_dims;
   std::array<double, 3> m_origin;
   double m_spacing = 1, m_floor = 0;
+  std::array<double, 3> m_centre;
+  double m_radius = 0;
   std::array<double, 15> m_mid;
   std::vector<float> m_distance;
   std::vector<Polyline> m_polylines;

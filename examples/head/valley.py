@@ -1,24 +1,10 @@
-"""The mid-surface x = x_m(y, z): a curved sheet through the interhemispheric fissure.
-
-A polynomial of degree 4 in y and z through the dark T1 valley; the plane x = 0 is up to 5 mm wrong
-where the falx bends in the occipital region."""
+"""The mid-surface of Colin27: the polynomial through the dark valley between the hemispheres on T1."""
 import numpy as np
 import scipy.ndimage as ndimage
 
 import frame
-from volume import mni_axes
-
-POWERS = [(i, j) for i in range(5) for j in range(5 - i)]  # x_m = sum c_k (y/100)^i (z/100)^j
-
-
-def terms(y, z):
-    u, v = np.asarray(y, float) / 100, np.asarray(z, float) / 100
-    return np.stack([u**i * v**j for i, j in POWERS], axis=-1)
-
-
-def evaluate(coefficients, y, z):
-    """x_m in mm, head frame."""
-    return terms(y, z) @ coefficients
+from chain import midsurface
+from template import mni_axes
 
 
 def valley(t1, region, centre, half_width):
@@ -49,15 +35,8 @@ def fit(t1, region):
     for half_width in (8, 6, 5, 4, 4, 4):
         x, good = valley(smooth, region, centre, half_width)
         points = frame.to_head(np.stack([x[good], y[good], z[good]], axis=-1))
-        matrix, weight = terms(points[:, 1], points[:, 2]), np.ones(len(points))
-        for _ in range(20):
-            root = np.sqrt(weight)[:, None]
-            coefficients = np.linalg.lstsq(matrix * root, points[:, 0] * root[:, 0], rcond=None)[0]
-            residual = points[:, 0] - matrix @ coefficients
-            weight = 1 / (1 + residual**2)
+        coefficients, residual = midsurface.robust(points)
         head = frame.to_head(np.stack([0 * y, y, z], axis=-1))
-        centre = evaluate(coefficients, head[..., 1], head[..., 2]) / frame.SCALE
+        centre = midsurface.evaluate(coefficients, head[..., 1], head[..., 2]) / frame.SCALE
         centre = np.clip(centre, -15, 15)
-    close = np.abs(residual) < 3
-    # Rounded (1e-6 mm at y = z = 100): the mesh shall not hang on the last bits of a LAPACK.
-    return np.round(coefficients, 6), float(np.sqrt(np.mean(residual[close]**2)))
+    return midsurface.rounded(coefficients, residual)

@@ -3,9 +3,7 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components, reverse_cuthill_mckee
 
-import frame
-import midsurface
-import trimesh
+from . import midsurface, trimesh
 
 
 def read_mesh(path):
@@ -74,6 +72,41 @@ def split(nodes, tets, labels):
     return np.vstack(new_nodes), np.vstack(new_tets), np.concatenate(regions), pair
 
 
+def part_pinches(nodes, tets, regions, pair):
+    """Where parts of a half touch in one node only, all but the largest get a node of their own: they
+    part there without a gap. A half stays one piece if it is one through faces."""
+    nodes, tets, pair, added = list(nodes), tets.copy(), list(pair), 0
+    for label in np.unique(regions):
+        surface = trimesh.boundary_faces(tets[regions == label])[0]
+        for node in trimesh.pinched_vertices(surface):
+            around = np.flatnonzero((tets == node).any(axis=1))
+            groups = fans(tets[around], node)
+            for group in groups[1:]:
+                ids = around[group]
+                tets[ids] = np.where(tets[ids] == node, len(nodes), tets[ids])
+                nodes.append(nodes[node])
+                pair.append(-1)
+                added += 1
+    if added:
+        print(f"  {added} nodes added where parts of a half touched in one node")
+    return np.array(nodes), tets, np.array(pair)
+
+
+def fans(tets, node):
+    """Tets around a node, grouped by the faces they share at it; the largest group first."""
+    owner, links = {}, []
+    for t, tet in enumerate(tets):
+        others = [k for k in tet if k != node]
+        for k in range(3):
+            face = tuple(sorted(others[:k] + others[k + 1:]))
+            if face in owner:
+                links.append((owner[face], t))
+            owner[face] = t
+    part = trimesh.components(len(tets), np.array(links).reshape(-1, 2).astype(int))
+    groups = [np.flatnonzero(part == k) for k in np.unique(part)]
+    return sorted(groups, key=len, reverse=True)
+
+
 def snap_to_midsurface(nodes, tets, labels, mid):
     """Puts the nodes common to both labels exactly on x = x_m (they lie on it to 1e-5 mm)."""
     common = np.intersect1d(tets[labels == 1], tets[labels == 2])
@@ -84,27 +117,27 @@ def snap_to_midsurface(nodes, tets, labels, mid):
     return nodes
 
 
-def falx_zone(yz):
+def falx_zone(yz, anatomy):
     """Whether points (y, z) of the mid-surface lie where the falx is: above its free edge and
     above the straight sinus (less 4 mm, the width of the sinus and of the falx' root)."""
-    sinus = frame.to_head_yz(frame.STRAIGHT_SINUS_MNI) - (2.0, 3.5)
-    edge = frame.to_head_yz(frame.FALX_EDGE_MNI)
+    sinus = anatomy.sinus - (2.0, 3.5)
+    edge = anatomy.falx_edge
     front = edge[0] + (edge[0] - edge[1]) / np.linalg.norm(edge[0] - edge[1]) * 30
     outline = np.vstack([[front], edge, sinus[1:], sinus[-1:] - (60, 20), [(-180, 150)],
                          [(150, 150)], [(150, front[1])]])
     return trimesh.in_polygon(yz, outline)
 
 
-def tags(nodes, tets, regions, pair, z_cut):
+def tags(nodes, tets, regions, pair, anatomy):
     """The Int32 point arrays of brain.vtu."""
     yz, on_mid = nodes[:, 1:], pair >= 0
-    bridge = on_mid & trimesh.in_polygon(yz, frame.to_head_yz(frame.BRIDGE_MNI))
-    falx = on_mid & ~bridge & falx_zone(yz)
-    stem = np.abs(nodes[:, 2] - z_cut) < 1e-6
+    bridge = on_mid & trimesh.in_polygon(yz, anatomy.bridge)
+    falx = on_mid & ~bridge & falx_zone(yz, anatomy)
+    stem = np.abs(nodes[:, 2] - anatomy.z_cut) < 1e-6
     surface = np.zeros(len(nodes), bool)
     surface[np.unique(trimesh.boundary_faces(tets)[0])] = True
-    distance = np.linalg.norm(nodes - frame.to_head(frame.OPTIC_MNI), axis=1)
-    optic = surface & (distance < frame.OPTIC_RADIUS_MNI * frame.SCALE)
+    distance = np.linalg.norm(nodes - anatomy.optic, axis=1)
+    optic = surface & (distance < anatomy.optic_radius)
     for label in (1, 2):  # a coarse mesh may have no node there: take the two nearest of each half
         half = np.intersect1d(np.flatnonzero(surface), tets[regions == label])
         if optic[half].sum() < 2:
@@ -114,10 +147,12 @@ def tags(nodes, tets, regions, pair, z_cut):
     return {"pair": pair, "bridge": bridge, "falx": falx, "stem": stem, "optic": optic}
 
 
-def assemble(path, mid, z_cut):
+def assemble(path, anatomy):
     """mesh_head's output -> nodes, tets, regions, point data."""
+    mid, z_cut = anatomy.mid, anatomy.z_cut
     nodes, tets, labels = drop_islands(*read_mesh(path))
     nodes[np.abs(nodes[:, 2] - z_cut) < 1e-2, 2] = z_cut  # CGAL finds the cut by bisection
     nodes = snap_to_midsurface(nodes, tets, labels, mid)
     nodes, tets, regions, pair = split(nodes, tets, labels)
-    return nodes, tets, regions, tags(nodes, tets, regions, pair, z_cut)
+    nodes, tets, pair = part_pinches(nodes, tets, regions, pair)
+    return nodes, tets, regions, tags(nodes, tets, regions, pair, anatomy)

@@ -5,18 +5,16 @@ the meshed body. Mesh_3 rounds them off unless they are given to it as polylines
 import numpy as np
 from skimage.measure import find_contours
 
-import frame
-import midsurface
-from volume import grid_origin, sample
+from . import midsurface
 
 STEP = 0.5  # mm, sampling of the sections in which the curves are found
 
 
-def section_contours(distance, point, first, second):
+def section_contours(grid, distance, point, first, second):
     """Closed zero contours, as (n, 2) parameters, of a distance field on the surface point(a, b)."""
     a, b = np.arange(*first, STEP), np.arange(*second, STEP)
-    grid = point(*np.meshgrid(a, b, indexing="ij"))
-    values = sample(distance, grid.reshape(-1, 3)).reshape(grid.shape[:2])
+    points = point(*np.meshgrid(a, b, indexing="ij"))
+    values = grid.sample(distance, points.reshape(-1, 3)).reshape(points.shape[:2])
     loops = [np.array([first[0], second[0]]) + STEP * loop for loop in find_contours(values, 0.0)]
     return [loop for loop in loops if np.allclose(loop[0], loop[-1]) and len(loop) > 3]
 
@@ -25,12 +23,13 @@ def length(curve):
     return np.linalg.norm(np.diff(curve, axis=0), axis=1).sum()
 
 
-def midline_loop(distance, mid, lowest):
+def midline_loop(anatomy, distance, lowest):
     """(y, z) of the outer contour of a body on the mid-surface; small holes are not protected."""
     def point(y, z):
-        return np.stack([midsurface.evaluate(mid, y, z), y, z], axis=-1)
+        return np.stack([midsurface.evaluate(anatomy.mid, y, z), y, z], axis=-1)
 
-    loops = section_contours(distance, point, (-118, 88), (lowest, 98))
+    y_range, highest = anatomy.midline
+    loops = section_contours(anatomy.grid, distance, point, y_range, (lowest, highest))
     loops.sort(key=length, reverse=True)
     for other in loops[1:]:
         print(f"  note: second contour on the mid-surface, {length(other):.0f} mm long, at",
@@ -58,14 +57,16 @@ def cut_loop(loop, z_cut):
                       crossing(ring[count - 1], ring[count])])
 
 
-def stem_rim(distance, mid, z_cut, ends):
+def stem_rim(anatomy, ends):
     """The rim of the cut face in its left and right part, between the two given points."""
+    z_cut = anatomy.z_cut
+
     def point(x, y):
         return np.stack([x, y, np.full(x.shape, z_cut)], axis=-1)
 
-    loops = section_contours(distance, point, (-40, 40), (-80, 0))
+    loops = section_contours(anatomy.grid, anatomy.brain, point, *anatomy.stem)
     ring = max(loops, key=length)[:-1]
-    right = ring[:, 0] > midsurface.evaluate(mid, ring[:, 1], z_cut)
+    right = ring[:, 0] > midsurface.evaluate(anatomy.mid, ring[:, 1], z_cut)
     parts = []
     for side in (~right, right):
         start = int(np.flatnonzero(side & ~np.roll(side, 1))[0])
@@ -79,29 +80,32 @@ def stem_rim(distance, mid, z_cut, ends):
     return parts
 
 
-def brain_curves(distance, mid, z_cut):
-    loop = lift(mid, cut_loop(midline_loop(distance, mid, z_cut - 12), z_cut))
+def brain_curves(anatomy):
+    mid, z_cut = anatomy.mid, anatomy.z_cut
+    loop = lift(mid, cut_loop(midline_loop(anatomy, anatomy.brain, z_cut - 12), z_cut))
     ends = loop[[0, -1]]
     y = np.linspace(ends[0, 1], ends[1, 1], 2 + int(abs(ends[0, 1] - ends[1, 1]) / STEP))
     across = np.column_stack([midsurface.evaluate(mid, y, z_cut), y, np.full(len(y), z_cut)])
     across[[0, -1]] = ends
-    return [loop, across, *stem_rim(distance, mid, z_cut, ends)]
+    return [loop, across, *stem_rim(anatomy, ends)]
 
 
-def cavity_curves(distance, mid):
+def cavity_curves(anatomy):
     """The wall's midline, in two halves: a closed polyline without corner can start Mesh_3 with the
     same point twice."""
-    loop = lift(mid, midline_loop(distance, mid, -75))
+    loop = lift(anatomy.mid, midline_loop(anatomy, anatomy.cavity, anatomy.cavity_z))
     loop[-1] = loop[0]
     half = len(loop) // 2
     return [loop[:half + 1], loop[half:]]
 
 
-def write(path, distance, mid, floor, curves):
+def write(path, anatomy, distance, floor, curves):
     """path.txt and path.raw; floor: the plane z = floor that cuts the body (or far below it)."""
     distance.astype("<f4").tofile(f"{path}.raw")
     with open(f"{path}.txt", "w", encoding="ascii") as out:
-        for row in (distance.shape, grid_origin(), (frame.SCALE, floor), mid):
+        centre, radius = anatomy.body
+        for row in (distance.shape, anatomy.grid.origin, (anatomy.grid.spacing, floor),
+                    (*centre, radius), anatomy.mid):
             print(*(repr(float(v)) if not isinstance(v, (int, np.integer)) else v for v in row),
                   file=out)
         print(f"{path}.raw", len(curves), file=out)
@@ -109,9 +113,3 @@ def write(path, distance, mid, floor, curves):
             print(len(curve), file=out)
             for p in curve:
                 print(*(f"{v:.7f}" for v in p), file=out)
-
-
-def voxel_axes(shape):
-    """Head coordinates of the voxels as three broadcastable arrays."""
-    axes = [o + frame.SCALE * np.arange(n) for n, o in zip(shape, grid_origin())]
-    return np.meshgrid(*axes, indexing="ij", sparse=True)

@@ -3,22 +3,17 @@ import numpy as np
 from scipy.spatial import Delaunay
 from skimage.measure import find_contours
 
-import brain
-import domain
-import frame
-import midsurface
-import trimesh
-from volume import sample
+from . import brain, domain, midsurface, trimesh
 
 LEFT_WALL, RIGHT_WALL, MID_SHEET = 1, 2, 3
 
 
-def cavity(path, mid, obstacle):
+def cavity(path, anatomy):
     """Points, triangles, part and tentorium flag of the cavity from its mesh.
 
     Walls have outward normals, the mid-sheet's point right."""
     nodes, tets, labels = brain.drop_islands(*brain.read_mesh(path))
-    nodes = brain.snap_to_midsurface(nodes, tets, labels, mid)
+    nodes = brain.snap_to_midsurface(nodes, tets, labels, anatomy.mid)
     outer, owner = trimesh.boundary_faces(tets)
     sheet = trimesh.shared_faces(tets, labels, 1, 2)
     triangles = np.vstack([outer[labels[owner] == 1], outer[labels[owner] == 2], sheet])
@@ -28,8 +23,8 @@ def cavity(path, mid, obstacle):
     triangles, points = triangles.reshape(-1, 3), nodes[used]
     # Half way between brain and cerebellum the obstacle's distance is zero.
     centre = points[triangles].mean(axis=1)
-    tentorium = (sample(obstacle, centre) < 1.5) & (part != MID_SHEET)
-    tentorium &= centre[:, 2] > frame.to_head((0, 0, frame.CAVITY_FLOOR_MNI + 1.5))[2]
+    tentorium = (anatomy.grid.sample(anatomy.obstacle, centre) < 1.5) & (part != MID_SHEET)
+    tentorium &= centre[:, 2] > anatomy.z_floor + 1.5 * anatomy.grid.spacing
     return points, triangles, part, tentorium
 
 
@@ -41,30 +36,32 @@ def resample(curve, step):
     return np.column_stack([np.interp(at, along, curve[:, k]) for k in range(2)])
 
 
-def falx_outline(cavity_distance, mid):
+def falx_outline(anatomy):
     """(y, z) of the falx: its free edge, and the rest of its border (closed with the edge's ends)
     3 mm beyond the wall of the cavity and below the straight sinus."""
-    y, z = np.arange(-125, 95, 0.5), np.arange(-80, 100, 0.5)
+    y, z = (np.arange(*window, 0.5) for window in anatomy.falx)
     grid = np.stack(np.meshgrid(y, z, indexing="ij"), axis=-1)
-    points = np.concatenate([midsurface.evaluate(mid, grid[..., 0], grid[..., 1])[..., None], grid],
-                            axis=-1)
-    distance = sample(cavity_distance, points.reshape(-1, 3)).reshape(grid.shape[:2])
-    inside = (distance < 3.0) & brain.falx_zone(grid.reshape(-1, 2)).reshape(distance.shape)
+    points = np.concatenate([midsurface.evaluate(anatomy.mid, grid[..., 0], grid[..., 1])[..., None],
+                             grid], axis=-1)
+    distance = anatomy.grid.sample(anatomy.cavity, points.reshape(-1, 3)).reshape(grid.shape[:2])
+    inside = (distance < 3.0) & brain.falx_zone(grid.reshape(-1, 2), anatomy).reshape(
+        distance.shape)
     loop = max(find_contours(inside.astype(float), 0.5), key=len)
     loop = np.array([y[0], z[0]]) + 0.5 * loop
     return loop
 
 
-def falx(cavity_distance, mid, size=5.0):
+def falx(anatomy, size=5.0):
     """Points, triangles (normals to the right) and free-edge flag of the falx sheet."""
-    edge = frame.to_head_yz(frame.FALX_EDGE_MNI)
-    loop = resample(falx_outline(cavity_distance, mid), size)[:-1]
+    edge = anatomy.falx_edge
+    loop = resample(falx_outline(anatomy), size)[:-1]
     dense = resample(edge, 0.25)
     gap = np.linalg.norm(loop[:, None] - dense, axis=2)
     free = gap.min(axis=1) < 1.0
     loop[free] = dense[gap.argmin(axis=1)[free]]  # the contour of the grid is ragged by 0.5 mm
     # Hexagonal grid inside, clear of the border.
-    y, z = np.meshgrid(np.arange(-125, 95, size), np.arange(-80, 100, size * np.sqrt(0.75)))
+    y, z = np.meshgrid(np.arange(*anatomy.falx[0], size),
+                       np.arange(*anatomy.falx[1], size * np.sqrt(0.75)))
     y[1::2] += size / 2
     inner = np.column_stack([y.ravel(), z.ravel()])
     inner = inner[trimesh.in_polygon(inner, loop)]
@@ -75,7 +72,9 @@ def falx(cavity_distance, mid, size=5.0):
     used, triangles = np.unique(triangles, return_inverse=True)
     triangles = triangles.reshape(-1, 3)
     yz, free = yz[used], np.concatenate([free, np.zeros(len(inner), bool)])[used]
-    points = domain.lift(mid, yz)
+    points = domain.lift(anatomy.mid, yz)
+    # Where two points of the border fell on one of the free edge there is a triangle without area.
+    triangles = triangles[trimesh.areas(points, triangles) > 1e-3]
     left = trimesh.normals_areas(points, triangles)[0][:, 0] < 0
     triangles[left] = triangles[left][:, ::-1]
     return points, triangles, free

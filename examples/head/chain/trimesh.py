@@ -39,6 +39,11 @@ def normals_areas(points, triangles):
     return cross / norm[:, None], norm / 2
 
 
+def areas(points, triangles):
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+
+
 def edge_counts(triangles):
     """Directed-edge balance: (edges used other than twice, edges used twice in one direction)."""
     directed = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)

@@ -66,6 +66,7 @@ struct Options {
   bool estimate = false;          // the error of the mesh at the landmarks, stage by stage
   bool plan = false;              // look for choices that leave the electrodes nearest their targets
   int threads = 1;
+  std::string progress = "auto";  // auto (a line on a terminal), line, json, none
   bool falx = true, skull = true, balanced = true, files = true, vtk = true, quiet = false;
 };
 

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "brainshift/version.hpp"
 #include "results.hpp"
 
 namespace dbs {
@@ -186,13 +187,15 @@ void prepare_folder(const std::string& folder) {
 }
 
 void write_tables(const std::string& folder, const Head& head, const Options& o,
-                  const std::vector<StageResult>& stages) {
+                  const std::vector<Stage>& plan, const std::vector<StageResult>& stages) {
   nlohmann::json json;
+  json["library"] = "libbrainshift " BRAINSHIFT_VERSION;
   json["head"] = {{"name", head.name}, {"nodes", head.brain.node_count()},
                   {"tets", head.brain.tet_count()}, {"volume_mL", ml(head.brain.volume())}};
   json["frame"] = "RAS";
   json["gravity_mm_s2"] = to_json(gravity_of(o.elevation));
   json["options"] = to_json(o);
+  for (const Stage& stage : plan) json["plan"].push_back(stage.label);   // finished or not
   for (const StageResult& stage : stages) json["stages"].push_back(to_json(stage));
   write_whole(folder + "/stages.json", json.dump(1) + "\n");
   write_whole(folder + "/stages.csv", stages_csv(stages));

@@ -128,7 +128,7 @@ class HeadScene:
                     side)
 
     def front(self):
-        return View("from the front and above, skull cut open", 0.80 * self.up + 0.60 * Z, self.up)
+        return View("from the front, skull cut open", 0.85 * Y + 0.45 * Z, Z)
 
     # What is in them.
 
@@ -184,11 +184,12 @@ class HeadScene:
                   flat(actor(cut(self.outside, where), EDGE, width=2))]
         if self.arrows:
             layers.append(self.arrow_actor(section))
-        if view.side:
-            layers += [a for a in self.lead_actors(stage)]   # over the tissue they are cut with
         for i, layer in enumerate(layers):
             layer.SetPosition(*(0.2 * i * view.towards_eye))   # later layers lie over earlier ones
             renderer.AddActor(layer)
+        for lead in self.lead_actors(stage) if view.side else ():
+            lead.SetPosition(*(20.0 * view.towards_eye))   # over the tissue, bent out of the plane or not
+            renderer.AddActor(lead)
 
     def draw_skull(self, renderer, view):
         """The half away from the eye, and a hint of the other."""
@@ -227,7 +228,7 @@ class HeadScene:
         """Centre and height that hold all of the skull in the view."""
         points = self.skull_points
         if view.at is not None:
-            outline = cut(self.skull, plane(view.towards_eye * view.at, view.towards_eye))
+            outline = cut(self.outside, plane(view.towards_eye * view.at, view.towards_eye))
             if outline.GetNumberOfPoints() == 0:
                 sys.exit(f"{view.title}: does not meet the head; ask for another cut")
             points = vtk_to_numpy(outline.GetPoints().GetData())
@@ -235,7 +236,7 @@ class HeadScene:
         centre = (0.5 * (across.min() + across.max()) * view.right +
                   0.5 * (along.min() + along.max()) * view.up)
         centre = centre + (view.at or 0.0) * view.towards_eye
-        return centre, 1.12 * max(np.ptp(along), np.ptp(across))
+        return centre, 1.17 * max(np.ptp(along), np.ptp(across))
 
     def draw(self, view, stage, pixels=700):
         """A square panel of one stage."""

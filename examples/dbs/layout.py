@@ -10,6 +10,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.patheffects import Normal, Stroke
 from PIL import Image
 
 from head_scene import AIR, BONE, BONE_THICKNESS, BURR_HOLE, FALX, FLUID, LEVEL, REST, unit
@@ -18,6 +19,10 @@ from vtk_parts import COLOURS, CONTACT, LEAD
 LETTERS = (("L", "R"), ("P", "A"), ("I", "S"))   # RAS
 WORDS = (("left", "right"), ("backwards", "forwards"), ("downwards", "upwards"))
 DEFLECTION, TIMES = "#d0008f", 10.0   # its colour, and how many times it is drawn
+PLANNED = {"color": "white", "linewidth": 1.3, "dashes": (3.5, 2.5), "dash_capstyle": "butt",
+           "path_effects": [Stroke(linewidth=2.1, foreground="#555555"), Normal()]}   # legible on anything
+HALO = [Stroke(linewidth=3.0, foreground="white"), Normal()]
+PLATE = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 1}   # under words
 plt.rcParams.update({"font.family": "DejaVu Sans", "font.size": 9, "svg.hashsalt": "dbs"})
 
 
@@ -30,11 +35,13 @@ def stage_title(stage):
     return f"Stage {stage['stage']}: {stage['title']}"
 
 
-def fluid_words(stage):
+def fluid_words(scene, stage):
+    """Air and level of each side; levels count from the full fluid of stage 0."""
     words = []
     for side in ("right", "left"):
         s = stage["sides"][side]
-        words.append(f"{side}: {s['air_mL']:.1f} mL of air, level at {s['level_mm']:.1f} mm" if s["open"]
+        fallen = scene.stages[0]["sides"][side]["level_mm"] - s["level_mm"]
+        words.append(f"{side}: {s['air_mL']:.1f} mL of air, level {fallen:.1f} mm lower" if s["open"]
                      else f"{side}: closed, full")
     return "   |   ".join(words)
 
@@ -72,8 +79,7 @@ def draw_lines(axis, panel, scene, stage, side):
     axis.plot(*panel.project(np.array([hole + (0.5 + t) * outward for t in (0.0, BONE_THICKNESS)])),
               color="white", linewidth=2 * BURR_HOLE * axis_points_per_mm(axis, panel),
               solid_capstyle="butt")
-    axis.plot(*panel.project([target, hole + 14.0 * outward]), color="black", linewidth=0.8,
-              linestyle=(0, (5, 3)))
+    axis.plot(*panel.project([target, hole + 14.0 * outward]), **PLANNED)
     lead = stage["electrodes"].get(side)
     if lead is not None and not lead["in_cannula"] and lead["device"] != "cannula":
         x, y = panel.project(deflected(lead, TIMES))
@@ -93,7 +99,7 @@ def draw_letters(axis, panel):
     for direction, x, y in ((panel.view.right, right - inset, 0.0), (-panel.view.right, left + inset, 0.0),
                             (panel.view.up, 0.0, top - inset), (-panel.view.up, 0.0, bottom + inset)):
         axis.text(x, y, letter(direction), ha="center", va="center", fontsize=10, fontweight="bold",
-                  bbox={"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 1})
+                  bbox=PLATE)
 
 
 def draw_triad(axis, panel):
@@ -118,16 +124,17 @@ def draw_gravity(axis, panel, scene):
     _, right, bottom, _ = panel.extent()
     x, y = right - 0.05 * panel.height, bottom + 0.04 * panel.height
     axis.annotate("", (x, y), (x, y + 0.10 * panel.height),
-                  arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 1.2})
+                  arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 1.2, "path_effects": HALO})
     axis.text(x - 0.02 * panel.height, y + 0.05 * panel.height, "gravity", ha="right", va="center",
-              fontsize=7.5)
+              fontsize=7.5, bbox=PLATE)
 
 
 def draw_ruler(axis, panel, length):
     left, _, bottom, _ = panel.extent()
     x, y = left + 0.04 * panel.height, bottom + 0.04 * panel.height
-    axis.plot([x, x + length], [y, y], color="black", linewidth=2.5, solid_capstyle="butt")
-    axis.text(x, y + 0.015 * panel.height, f"{length:g} mm", va="bottom", fontsize=7.5)
+    axis.plot([x, x + length], [y, y], color="black", linewidth=2.5, solid_capstyle="butt",
+              path_effects=[Stroke(linewidth=4.5, foreground="white"), Normal()])
+    axis.text(x, y + 0.015 * panel.height, f"{length:g} mm", va="bottom", fontsize=7.5, bbox=PLATE)
 
 
 def draw_panel(axis, scene, view, stage, title=None, pixels=700):
@@ -160,7 +167,7 @@ def legend(figure, where, leads, columns, space=True):
     if leads:
         entries += [Line2D([], [], color=LEAD, linewidth=3, label="cannula, lead"),
                     Line2D([], [], color=CONTACT, linewidth=3, label="its contacts"),
-                    Line2D([], [], color="black", linewidth=0.8, linestyle=(0, (5, 3)), label="planned line"),
+                    Line2D([], [], label="planned line", **PLANNED),
                     Line2D([], [], color=DEFLECTION, linewidth=1.8, marker="o", markersize=4,
                            label=f"lead, off that line ×{TIMES:g}")]
     figure.legend(handles=entries, loc="center", bbox_to_anchor=where, ncol=columns, frameon=False,
@@ -189,7 +196,7 @@ def stage_page(scene, stage, options):
     if side not in ("right", "left"):
         side = next(iter(scene.plans), "right")
     figure.suptitle(stage_title(stage), x=0.015, y=0.985, ha="left", fontsize=16, fontweight="bold")
-    figure.text(0.015, 0.928, fluid_words(stage), fontsize=10.5)
+    figure.text(0.015, 0.928, fluid_words(scene, stage), fontsize=10.5)
     big = figure.add_axes([0.0, 0.16, 0.46, 0.735])
     draw_panel(big, scene, scene.space(side), stage, scene.space(side).title, 1000)
     cuts = [(scene.axial(options.axial), None), (scene.coronal(options.coronal), None),
@@ -248,7 +255,7 @@ def shift_page(scene, options):
         left, wide = i / len(chosen), 1.0 / len(chosen)
         figure.text(left + 0.5 * wide, 0.975, f"({'abc'[i]}) {words}", ha="center", fontsize=14,
                     fontweight="bold")
-        figure.text(left + 0.5 * wide, 0.953, f"{stage_title(stage)}\n{fluid_words(stage)}", ha="center",
+        figure.text(left + 0.5 * wide, 0.953, f"{stage_title(stage)}\n{fluid_words(scene, stage)}", ha="center",
                     va="top", fontsize=9)
         for j, view in enumerate((scene.front(), scene.axial(options.axial))):
             axis = figure.add_axes([left + 0.01, 0.505 - 0.40 * j, wide - 0.02, 0.40])
@@ -267,7 +274,7 @@ def lead_page(scene, side, _):
     figure = plt.figure(figsize=(13.0, 8.0))
     for i, (stage, words) in enumerate(zip(chosen, ("after the cannula's removal", "at the end"))):
         view = scene.along(side)
-        view.centre, view.height = 0.5 * (target + hole), 1.25 * np.linalg.norm(hole - target)
+        view.centre, view.height = 0.5 * (target + hole), 1.5 * np.linalg.norm(hole - target)
         axis = figure.add_axes([0.01 + 0.495 * i, 0.15, 0.485, 0.73])
         draw_panel(axis, scene, view, stage, lead_words(stage, side), 1000)
         figure.text(0.25 + 0.495 * i, 0.945, f"({'ab'[i]}) {words}: stage {stage['stage']}, {stage['title']}",
@@ -286,14 +293,15 @@ def panel_page(scene, view, stage):
 
 # Files.
 
-def png(figure, dots, colours=None):
-    """A page as a PNG; with at most so many colours, if asked, to be small."""
+def png(figure, dots, small=False):
+    """A page as a PNG; small: with 64 levels per colour, which nobody sees and which packs better."""
     buffer = io.BytesIO()
     figure.savefig(buffer, dpi=dots, metadata={"Software": None})
     plt.close(figure)
-    if not colours:
+    if not small:
         return buffer.getvalue()
-    image = Image.open(buffer).convert("RGB").quantize(colours, dither=Image.Dither.NONE)
-    small = io.BytesIO()
-    image.save(small, "PNG", optimize=True)
-    return small.getvalue()
+    levels = np.asarray(Image.open(buffer).convert("RGB"), dtype=float) / 255.0
+    image = Image.fromarray((np.round(levels * 63.0) * (255.0 / 63.0)).round().astype(np.uint8))
+    packed = io.BytesIO()
+    image.save(packed, "PNG", optimize=True)
+    return packed.getvalue()

@@ -37,8 +37,7 @@ def parse():
                         help="draw displacements as arrows, this many times their length")
     parser.add_argument("--edges", action="store_true", help="with the edges of the tets")
     parser.add_argument("--dots", type=int, default=110, help="per inch; a stage is 15 inches wide")
-    parser.add_argument("--colours", type=int, default=0,
-                        help="at most so many in a picture, for a small file (default: no limit)")
+    parser.add_argument("--small", action="store_true", help="small files: 64 levels per colour")
     parser.add_argument("--out", type=Path, help="folder for the pictures (default: the results)")
     return parser.parse_args()
 
@@ -72,7 +71,7 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     for name, page in pages(scene, options):
         path = folder / f"{name}.png"
-        path.write_bytes(png(page(), options.dots, options.colours))
+        path.write_bytes(png(page(), options.dots, options.small))
         print(path)
 
 

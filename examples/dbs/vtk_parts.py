@@ -197,6 +197,8 @@ def actor(data, colour=None, lookup=None, opacity=1.0, width=1.0, edges=False, c
 def flat(result):
     """Without shading: for cuts, whose colour alone has a meaning."""
     result.GetProperty().LightingOff()
+    result.GetProperty().SetAmbient(1.0)
+    result.GetProperty().SetDiffuse(0.0)
     return result
 
 

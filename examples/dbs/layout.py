@@ -23,7 +23,7 @@ PLANNED = {"color": "white", "linewidth": 1.3, "dashes": (3.5, 2.5), "dash_capst
            "path_effects": [Stroke(linewidth=2.1, foreground="#555555"), Normal()]}   # legible on anything
 HALO = [Stroke(linewidth=3.0, foreground="white"), Normal()]
 PLATE = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 1}   # under words
-plt.rcParams.update({"font.family": "DejaVu Sans", "font.size": 9, "svg.hashsalt": "dbs"})
+plt.rcParams.update({"font.family": "DejaVu Sans", "font.size": 9, "savefig.dpi": "figure"})
 
 
 def letter(direction, words=LETTERS):
@@ -137,8 +137,9 @@ def draw_ruler(axis, panel, length):
     axis.text(x, y + 0.015 * panel.height, f"{length:g} mm", va="bottom", fontsize=7.5, bbox=PLATE)
 
 
-def draw_panel(axis, scene, view, stage, title=None, pixels=700):
-    panel = scene.draw(view, stage, pixels)
+def draw_panel(axis, scene, view, stage, title=None):
+    box = axis.get_window_extent()
+    panel = scene.draw(view, stage, round(1.2 * min(box.width, box.height)))
     extent = panel.extent()
     axis.imshow(panel.image, extent=extent, interpolation="antialiased")
     axis.set_xlim(extent[:2])
@@ -198,7 +199,7 @@ def stage_page(scene, stage, options):
     figure.suptitle(stage_title(stage), x=0.015, y=0.985, ha="left", fontsize=16, fontweight="bold")
     figure.text(0.015, 0.928, fluid_words(scene, stage), fontsize=10.5)
     big = figure.add_axes([0.0, 0.16, 0.46, 0.735])
-    draw_panel(big, scene, scene.space(side), stage, scene.space(side).title, 1000)
+    draw_panel(big, scene, scene.space(side), stage, scene.space(side).title)
     cuts = [(scene.axial(options.axial), None), (scene.coronal(options.coronal), None),
             (scene.along("right", options.sagittal), "right"), (scene.along("left", -options.sagittal), "left")]
     for i, (view, lead) in enumerate(cuts):
@@ -229,7 +230,7 @@ def side_page(scene, side, _):
         for j, view in enumerate((scene.space(side), scene.along(side))):
             axis = figure.add_axes([left + (0.1 + 2.95 * j) / width, top - 3.28 / height, 2.85 / width,
                                     2.85 / height])
-            draw_panel(axis, scene, view, stage, pixels=440)
+            draw_panel(axis, scene, view, stage)
     colour_bar(figure, scene, [0.03, 0.52 / height, 0.28, 0.14 / height])
     legend(figure, (0.66, 0.42 / height), bool(scene.plans), 5)
     return figure
@@ -259,7 +260,7 @@ def shift_page(scene, options):
                     va="top", fontsize=9)
         for j, view in enumerate((scene.front(), scene.axial(options.axial))):
             axis = figure.add_axes([left + 0.01, 0.505 - 0.40 * j, wide - 0.02, 0.40])
-            draw_panel(axis, scene, view, stage, view.title, 800)
+            draw_panel(axis, scene, view, stage, view.title)
     colour_bar(figure, scene, [0.06, 0.058, 0.30, 0.016])
     legend(figure, (0.70, 0.042), False, 3)
     figure.text(0.985, 0.006, remarks(scene), ha="right", fontsize=8.5)
@@ -276,7 +277,7 @@ def lead_page(scene, side, _):
         view = scene.along(side)
         view.centre, view.height = 0.5 * (target + hole), 1.5 * np.linalg.norm(hole - target)
         axis = figure.add_axes([0.01 + 0.495 * i, 0.15, 0.485, 0.73])
-        draw_panel(axis, scene, view, stage, lead_words(stage, side), 1000)
+        draw_panel(axis, scene, view, stage, lead_words(stage, side))
         figure.text(0.25 + 0.495 * i, 0.945, f"({'ab'[i]}) {words}: stage {stage['stage']}, {stage['title']}",
                     ha="center", fontsize=12, fontweight="bold")
     colour_bar(figure, scene, [0.05, 0.085, 0.34, 0.02])
@@ -286,17 +287,17 @@ def lead_page(scene, side, _):
 
 def panel_page(scene, view, stage):
     """One panel alone, for pages that say the rest themselves."""
-    figure = plt.figure(figsize=(4.8, 4.8))
-    draw_panel(figure.add_axes([0, 0, 1, 1]), scene, view, stage, pixels=620)
+    figure = plt.figure(figsize=(3.3, 3.3), dpi=160)   # small: its words are to be read at the width of a phone
+    draw_panel(figure.add_axes([0, 0, 1, 1]), scene, view, stage)
     return figure
 
 
 # Files.
 
-def png(figure, dots, small=False):
+def png(figure, small=False):
     """A page as a PNG; small: with 64 levels per colour, which nobody sees and which packs better."""
     buffer = io.BytesIO()
-    figure.savefig(buffer, dpi=dots, metadata={"Software": None})
+    figure.savefig(buffer, metadata={"Software": None})
     plt.close(figure)
     if not small:
         return buffer.getvalue()

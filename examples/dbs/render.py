@@ -27,7 +27,8 @@ def parse():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", type=Path, help="folder written by dbs")
     parser.add_argument("--head", type=Path, required=True, help="folder of the head")
-    parser.add_argument("--stage", action="append", help="only this one (6b), no sheets; may be repeated")
+    parser.add_argument("--only", action="append", metavar="NAME",
+                        help="this picture (stage_6b, sheet_left, ...); may be repeated")
     parser.add_argument("--axial", type=float, default=25.0, help="z of that cut, mm (default 25)")
     parser.add_argument("--coronal", type=float, default=40.0, help="y of that cut, mm (default 40)")
     parser.add_argument("--sagittal", type=float, default=15.0,
@@ -46,10 +47,7 @@ def pages(scene, options):
     """Name and maker of each picture."""
     from layout import lead_page, shift_page, side_page, stage_page
     for stage in scene.stages:
-        if not options.stage or stage["stage"] in options.stage:
-            yield f"stage_{stage['stage']}", lambda stage=stage: stage_page(scene, stage, options)
-    if options.stage:
-        return
+        yield f"stage_{stage['stage']}", lambda stage=stage: stage_page(scene, stage, options)
     yield "figure_shift", lambda: shift_page(scene, options)
     for side in scene.plans:
         yield f"sheet_{side}", lambda side=side: side_page(scene, side, options)
@@ -61,17 +59,20 @@ def main():
     options = parse()
     need_display()
     from head_scene import HeadScene
-    from layout import png
+    from layout import plt, png
+    plt.rcParams["figure.dpi"] = options.dots
     scene = HeadScene(options.head, options.results, options.magnify, options.edges, options.arrows)
-    known = [s["stage"] for s in scene.stages]
-    for stage in options.stage or []:
-        if stage not in known:
-            sys.exit(f"render.py: --stage {stage}: no such stage in {options.results}; there are {' '.join(known)}")
+    makers = dict(pages(scene, options))
+    for name in options.only or []:
+        if name not in makers:
+            sys.exit(f"render.py: --only {name}: no such picture of {options.results}; there are "
+                     f"{', '.join(makers)}")
     folder = options.out or options.results
     folder.mkdir(parents=True, exist_ok=True)
-    for name, page in pages(scene, options):
+    for name in options.only or makers:
+        page = makers[name]
         path = folder / f"{name}.png"
-        path.write_bytes(png(page(), options.dots, options.small))
+        path.write_bytes(png(page(), options.small))
         print(path)
 
 

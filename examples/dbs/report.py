@@ -45,34 +45,39 @@ def size(vector):
     return math.sqrt(sum(x * x for x in vector))
 
 
+def fixed(value, digits):
+    text = f"{value:.{digits}f}"
+    return text.lstrip("-") if float(text) == 0.0 else text   # no -0.000
+
+
 def stage_cells(stage):
     """Key and text of the numbers in a row of the stage table."""
     sides = stage["sides"]
     for side in SIDES:
-        yield f"air_{side}_mL", f"{sides[side]['air_mL']:.2f}"
+        yield f"air_{side}_mL", fixed(sides[side]['air_mL'], 2)
     for side in SIDES:
-        yield f"level_{side}_mm", f"{sides[side]['level_mm']:.2f}"
+        yield f"level_{side}_mm", fixed(sides[side]['level_mm'], 2)
     for side in SIDES:
-        yield f"surface_{side}_mm", f"{sides[side]['largest_surface_motion_mm']:.3f}"
-    yield "midline_shift_mm", f"{stage['midline_shift_mm']:.3f}"
+        yield f"surface_{side}_mm", fixed(sides[side]['largest_surface_motion_mm'], 3)
+    yield "midline_shift_mm", fixed(stage['midline_shift_mm'], 3)
     for side in SIDES:
         for k, axis in enumerate("xyz"):
-            yield f"STN_{side}_{axis}_mm", f"{stage['shift_mm'][f'STN_{side}'][k]:.3f}"
+            yield f"STN_{side}_{axis}_mm", fixed(stage['shift_mm'][f'STN_{side}'][k], 3)
     yield "residual", f"{stage['solve']['residual']:.1e}"
 
 
 def electrode_cells(lead):
     from charts import strongest_tie, tip_off_target
     for k, axis in enumerate("xyz"):
-        yield f"tip_{axis}_mm", f"{lead['tip_mm'][k]:.3f}"
-    yield "tip_off_target_mm", f"{tip_off_target(lead):.3f}"
-    yield "bow_mm", f"{lead['bow_mm']:.3f}"
+        yield f"tip_{axis}_mm", fixed(lead['tip_mm'][k], 3)
+    yield "tip_off_target_mm", fixed(tip_off_target(lead), 3)
+    yield "bow_mm", fixed(lead['bow_mm'], 3)
     for name, key in (("cannula", "D_since_cannula_left"), ("surgery", "D_since_end_of_surgery")):
         for frame in ("skull", "tissue"):
             value = lead[key] and lead[key][f"{frame}_mm"]
-            yield f"D_{frame}_since_{name}_mm", "–" if value is None else f"{value:.3f}"
-    yield "skull_force_mN", f"{size(lead['force_of_skull_or_frame_mN']):.1f}"
-    yield "strongest_tie_mN", f"{strongest_tie(lead):.1f}"
+            yield f"D_{frame}_since_{name}_mm", "–" if value is None else fixed(value, 3)
+    yield "skull_force_mN", fixed(size(lead['force_of_skull_or_frame_mN']), 1)
+    yield "strongest_tie_mN", fixed(strongest_tie(lead), 1)
 
 
 def row(words, cells):
@@ -104,24 +109,22 @@ def stage_table(stages):
 def electrode_table(stages):
     head = heading(("stage", "side", "device"), (
         ("tip, mm", "xyz"), ("off target", ("mm",)), ("bow", ("mm",)),
-        ("D since the cannula left, mm", ("skull", "tissue")), ("D since surgery, mm", ("skull", "tissue")),
-        ("force, mN", ("at skull", "strongest tie"))))
-    rows = [row((s["stage"], side, lead["device"] + (" in its cannula" if lead["in_cannula"] and
+        ("D since cannula out, mm", ("skull", "tissue")), ("D since surgery, mm", ("skull", "tissue")),
+        ("force, mN", ("skull", "tie"))))
+    rows = [row((s["stage"], side, lead["device"] + (", in cannula" if lead["in_cannula"] and
                                                      lead["device"] != "cannula" else "")),
                 electrode_cells(lead))
             for s in stages for side, lead in sorted(s["electrodes"].items(), reverse=True)]
     return table("electrodes", head, rows)
 
 
-def parameter_table(options):
+def parameter_list(options):
     def show(value):
         if value is None or value == "" or value == []:
             return "–"
         return ("yes" if value else "no") if isinstance(value, bool) else str(value)
-    rows = [f'<tr><td class="word">{escape(k)}</td><td class="word">{escape(show(v))}</td></tr>'
-            for k, v in sorted(options.items())]
-    return ('<div class="wide" tabindex="0"><table id="parameters" class="parameters"><tbody>' +
-            "\n".join(rows) + "</tbody></table></div>")
+    rows = [f"<div><dt>{escape(k)}</dt><dd>{escape(show(v))}</dd></div>" for k, v in sorted(options.items())]
+    return '<dl id="parameters">' + "\n".join(rows) + "</dl>"
 
 
 # Pictures.
@@ -143,13 +146,13 @@ def views_of(scene, stage):
     yield scene.axial(25.0), "Axial, z = 25 mm; right of the head on the left"
     for other in SIDES:
         if other in scene.plans:
-            yield scene.along(other), f"Along the {other} electrode. {lead_words(stage, other)}"
+            yield scene.along(other), f"Along the {other} electrode: {lead_words(stage, other)}"
 
 
 def stage_views(scene, stage):
     from layout import fluid_words, panel_page, png, stage_title
     title = stage_title(stage)
-    pictures = [figure(image("png", png(panel_page(scene, view, stage), 110, True), f"{title}. {words}"), words)
+    pictures = [figure(image("png", png(panel_page(scene, view, stage), True), f"{title}. {words}"), words)
                 for view, words in views_of(scene, stage)]
     remark = f'<p class="note">{escape(stage["remark"])}</p>' if stage["remark"] else ""
     return (f'<section id="stage_{stage["stage"]}"><h3>{escape(title)}</h3>'
@@ -211,13 +214,14 @@ def body(scene, results):
     if scene.plans:
         yield "<h2>Electrodes</h2>" + electrode_table(scene.stages)
         yield ('<p class="small">D: motion of the tip along its trajectory, positive towards the burr hole, '
-               "against the skull and against the tissue that was at the tip.</p>")
+               "against the skull and against the tissue that was at the tip. Forces: of skull or frame on the "
+               "device, and of the strongest tie to tissue.</p>")
     yield f'<h2>Charts</h2><div class="charts">{charts}</div>'
     yield "<h2>Pictures</h2>" + key_figure(scene)
     yield '<p class="small">Skull drawn 6 mm thick; only its inner table is in the model.</p>'
     for stage in scene.stages:
         yield stage_views(scene, stage)
-    yield "<h2>Parameters</h2>" + parameter_table(scene.table["options"])
+    yield "<h2>Parameters</h2>" + parameter_list(scene.table["options"])
     yield "<h2>Versions</h2>" + versions(scene, results)
     yield "<h2>Limits</h2><ul>" + "".join(f"<li>{escape(text)}</li>" for text in LIMITS) + "</ul>"
 

@@ -177,6 +177,7 @@ void write_whole(const std::string& path, const std::string& text) {
 void prepare_folder(const std::string& folder) {
   namespace fs = std::filesystem;
   static const std::regex mine("stage_[0-9][a-c]?(_(left|right)(_track)?)?[.](vtu|vtp|png)|"
+                               "(sheet|figure_lead)_(left|right)[.]png|figure_shift[.]png|"
                                "stages([.]electrodes)?[.]pvd|stages[.](json|csv)|electrodes[.]csv|plan[.]json");
   fs::create_directories(folder);
   std::vector<fs::path> old;

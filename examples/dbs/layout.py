@@ -19,8 +19,8 @@ from vtk_parts import COLOURS, CONTACT, LEAD
 LETTERS = (("L", "R"), ("P", "A"), ("I", "S"))   # RAS
 WORDS = (("left", "right"), ("backwards", "forwards"), ("downwards", "upwards"))
 DEFLECTION, TIMES = "#d0008f", 10.0   # its colour, and how many times it is drawn
-PLANNED = {"color": "white", "linewidth": 1.3, "dashes": (3.5, 2.5), "dash_capstyle": "butt",
-           "path_effects": [Stroke(linewidth=2.1, foreground="#555555"), Normal()]}   # legible on anything
+PLANNED = {"color": "white", "linewidth": 0.9, "dashes": (4.0, 4.0), "dash_capstyle": "butt",
+           "path_effects": [Stroke(linewidth=1.5, foreground="#555555"), Normal()]}   # legible on anything
 HALO = [Stroke(linewidth=3.0, foreground="white"), Normal()]
 PLATE = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 1}   # under words
 plt.rcParams.update({"font.family": "DejaVu Sans", "font.size": 9, "savefig.dpi": "figure"})

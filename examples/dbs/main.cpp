@@ -26,12 +26,11 @@ bool stop() { return dbs::interrupted() != 0; }
 class Files {
  public:
   Files(const dbs::Head& head, const dbs::Options& options, const dbs::Procedure& procedure)
-      : m_head(head), m_options(options), m_procedure(procedure) {
-    if (options.files) dbs::prepare_folder(options.out);
-  }
+      : m_head(head), m_options(options), m_procedure(procedure) {}
 
   void add(const std::vector<dbs::StageResult>& stages) {
     if (!m_options.files) return;
+    if (stages.size() == 1) dbs::prepare_folder(m_options.out);   // earlier results stay until there are new
     const dbs::StageResult& last = stages.back();
     if (m_options.vtk && last.report.converged()) {
       m_brain.emplace_back(last.time, write_stage(m_options.out, m_head, m_procedure, last.label));

@@ -164,9 +164,9 @@ def key_figure(scene):
     """Colours of the pictures."""
     from charts import svg
     from layout import colour_bar, legend, plt
-    page = plt.figure(figsize=(7.6, 2.1))
-    colour_bar(page, scene, [0.06, 0.72, 0.88, 0.10])
-    legend(page, (0.5, 0.20), bool(scene.plans), 3)
+    page = plt.figure(figsize=(4.6, 2.6))
+    colour_bar(page, scene, [0.05, 0.84, 0.90, 0.07])
+    legend(page, (0.5, 0.28), bool(scene.plans), 2)
     return figure(image("svg+xml", svg(page).encode(), "Key to the pictures"), "").replace(
         "<figure>", '<figure class="key">')
 

@@ -114,10 +114,11 @@ class HeadScene:
         return View(f"coronal, y = {y:g} mm", Y, Z, at=y)   # seen from the front
 
     def along(self, side, sagittal=15.0):
-        """The plane of a side's trajectory and the line from front to back, seen from that side."""
+        """The plane of a side's trajectory and the line from front to back, seen from that side; without a
+        trajectory, a sagittal plane so far (mm) from x = 0."""
         outwards = OUTWARDS[side]
         if side not in self.plans:
-            return View(f"sagittal, {side}", outwards, self.up, side, at=sagittal)
+            return View(f"sagittal, x = {sagittal * outwards[0]:g} mm", outwards, self.up, side, at=sagittal)
         target, hole = self.plans[side]
         normal = unit(np.cross(Y, hole - target))
         normal *= np.sign(normal.dot(outwards))

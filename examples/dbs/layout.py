@@ -201,7 +201,7 @@ def stage_page(scene, stage, options):
     big = figure.add_axes([0.0, 0.16, 0.46, 0.735])
     draw_panel(big, scene, scene.space(side), stage, scene.space(side).title)
     cuts = [(scene.axial(options.axial), None), (scene.coronal(options.coronal), None),
-            (scene.along("right", options.sagittal), "right"), (scene.along("left", -options.sagittal), "left")]
+            (scene.along("right", options.sagittal), "right"), (scene.along("left", options.sagittal), "left")]
     for i, (view, lead) in enumerate(cuts):
         axis = figure.add_axes([0.465 + 0.268 * (i % 2), 0.535 - 0.412 * (i // 2), 0.265, 0.365])
         words = f"{view.title}\n{lead_words(stage, lead)}" if lead in scene.plans else view.title

@@ -145,8 +145,11 @@ def views_of(scene, stage):
     yield scene.space(side), f"From the {side}, skull cut open"
     yield scene.axial(25.0), "Axial, z = 25 mm; right of the head on the left"
     for other in SIDES:
+        view = scene.along(other)
         if other in scene.plans:
-            yield scene.along(other), f"Along the {other} electrode: {lead_words(stage, other)}"
+            yield view, f"Along the {other} electrode: {lead_words(stage, other)}"
+        else:
+            yield view, view.title[0].upper() + view.title[1:] + ", where no electrode is"
 
 
 def stage_views(scene, stage):

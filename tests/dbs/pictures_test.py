@@ -1,6 +1,7 @@
 """Pictures of a run of dbs: what is in them is where it is in the results.
 
     pictures_test.py HEAD RESULTS"""
+import copy
 import dataclasses
 import importlib.util
 import io
@@ -58,6 +59,14 @@ class Panels(unittest.TestCase):
         both = where(self.draw(self.scene.axial(25.0), "8").image, AIR)
         self.assertGreater(len(both[0]), 2 * len(one[0]))
         self.assertAlmostEqual(both[1].mean(), 200, delta=20)
+
+    def test_without_an_electrode_each_side_has_a_sagittal_cut_of_its_own(self):
+        scene = copy.copy(self.scene)
+        scene.plans = {}
+        air = {side: len(where(scene.draw(dataclasses.replace(scene.along(side), side=""), self.stage["1"],
+                                          400).image, AIR)[0]) for side in ("right", "left")}
+        self.assertGreater(air["right"], 50)   # opened first
+        self.assertEqual(air["left"], 0)
 
     def test_the_waterline_of_a_cut_is_at_the_level_of_the_results(self):
         panel = self.draw(dataclasses.replace(self.scene.along("right"), side=""), "8")   # no dark contacts

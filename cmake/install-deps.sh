@@ -11,11 +11,11 @@ Groups (default: core):
          the io target and the examples
   test   GoogleTest; Python with numpy and VTK for checks against VTK; where it can be had,
          Siconos for a cross-check of complementarity problems, abidiff for the ABI of the C face,
-         Doxygen for the reference
+         Doxygen for the reference, and what draws pictures and reports, with Chromium to look at them
   data   what examples/head needs to make the head anew: volumes, CGAL, Python packages
   own_head  what examples/own_head needs: CGAL, Python packages (nibabel, VTK)
   fuzz   clang with libFuzzer and clang-tidy, for tests/robustness
-  docs   what draws pictures and charts: VTK, matplotlib, a virtual X server
+  docs   what draws pictures, charts and reports: VTK, matplotlib, a virtual X server
   bench  Google Benchmark
 
 Does nothing where all is installed. Needs root or sudo only if something is missing.
@@ -82,6 +82,7 @@ END
 python3-numpy|python:numpy|numpy
 python3-vtk9|python:vtk|VTK 9 for Python
 python3-matplotlib|python:matplotlib|matplotlib
+python3-pil|python:PIL|Pillow
 xvfb|command:xvfb-run|a virtual X server (Xvfb)
 xauth|command:xauth|xauth
 libgl1-mesa-dri|-|a software OpenGL
@@ -101,6 +102,12 @@ optional_of() {
 libsiconos-numerics-dev|header:siconos/SiconosConfig.h|Siconos
 abigail-tools|command:abidiff|abidiff
 doxygen|command:doxygen|Doxygen
+python3-matplotlib|python:matplotlib|matplotlib
+python3-pil|python:PIL|Pillow
+xvfb|command:xvfb-run|Xvfb
+xauth|command:xauth|xauth
+libgl1-mesa-dri|command:xvfb-run|Mesa
+chromium|command:chromium|Chromium
 END
       ;;
   esac

@@ -1,7 +1,9 @@
 #include "alternatives.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 
 namespace dbs {
@@ -45,13 +47,14 @@ void undo(const Alternative& from, bool depth_only, const Head& head, Options& o
   }
 }
 
+constexpr double slacks[] = {0.0, 1.0, 2.0, 4.0};   // mm
 constexpr double settled = 0.02;   // mm; far below what imaging resolves: nothing is left to undo
 
 class Search {
  public:
   Search(const Head& head, const Options& options,
-         const std::function<void(const Alternative&)>& done)
-      : m_head(head), m_asked(options), m_done(done), m_procedure(head, options) {}
+         const std::function<void(const Alternative&)>& done, Watcher* watcher)
+      : m_head(head), m_asked(options), m_done(done), m_procedure(head, options, watcher) {}
 
   std::vector<Alternative> run() {
     Start start = begin();
@@ -86,6 +89,7 @@ class Search {
 
   const StageResult& run_stage(const Stage& stage) {
     m_last = m_procedure.run(stage);
+    if (m_last->report.status == Status::cancelled) throw Interrupted{};
     if (!m_last->report.converged()) {
       throw Error(ErrorCode::invalid_argument, "stage " + stage.label + ": " + m_last->report.message);
     }
@@ -144,7 +148,7 @@ class Search {
 
   Alternative try_slack(const Start& start, Alternative best) {
     const Options base = best.options;
-    for (double slack : {0.0, 1.0, 2.0, 4.0}) {
+    for (double slack : slacks) {
       if (slack == base.slack) continue;
       Options o = base;
       o.slack = slack;
@@ -193,13 +197,20 @@ const Alternative& best_of(const std::vector<Alternative>& alternatives) {
   return *best;
 }
 
+int most_alternatives(const Options& options) {
+  const int orders = options.sides == "both" ? 3 : 1;
+  const auto other = [&](double slack) { return slack != options.slack; };
+  constexpr int aims = 1, corrections = 3;
+  return orders + int(std::count_if(std::begin(slacks), std::end(slacks), other)) + aims + corrections;
+}
+
 std::vector<Alternative> search_alternatives(
     const Head& head, const Options& options,
-    const std::function<void(const Alternative&)>& done) {
+    const std::function<void(const Alternative&)>& done, Watcher* watcher) {
   if (!options.devices) {
     throw Error(ErrorCode::invalid_argument, "--plan and --no-devices: there is nothing to plan");
   }
-  return Search(head, options, done).run();
+  return Search(head, options, done, watcher).run();
 }
 
 }  // namespace dbs

@@ -28,9 +28,14 @@ struct Alternative {
 
 // Goes through order of sides, slack and aim one at a time, then depth and aim point that undo what is
 // left, each as a branch of one procedure; `done` is told each in turn. The first is `options` itself.
-// Throws brainshift::Error where `options` has no electrodes or cannot be.
+// Throws brainshift::Error where `options` has no electrodes or cannot be, and Interrupted where the
+// watcher ended a solve.
 std::vector<Alternative> search_alternatives(const Head& head, const Options& options,
-                                             const std::function<void(const Alternative&)>& done);
+                                             const std::function<void(const Alternative&)>& done,
+                                             Watcher* watcher = nullptr);
+struct Interrupted {};
+// How many the search will try at most.
+int most_alternatives(const Options& options);
 
 // Least mean; the earlier of equals.
 const Alternative& best_of(const std::vector<Alternative>& alternatives);

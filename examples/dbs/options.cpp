@@ -163,7 +163,10 @@ int parse(int argc, char** argv, Options& o) {
                  "mm: solves end where less than that is left open; 0: as exact as they can be");
   app.add_option("--threads", o.threads, "of the solver; no result depends on it")
       ->capture_default_str()->check(CLI::Range(1, 256));
-  app.add_flag("--quiet", o.quiet, "no progress");
+  app.add_option("--progress", o.progress, "on stderr. auto: a line where that is a terminal, else "
+                 "nothing; line; json: an object per line; none")
+      ->capture_default_str()->check(CLI::IsMember({"auto", "line", "json", "none"}));
+  app.add_flag("--quiet", o.quiet, "no progress, whatever --progress says");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -94,6 +94,15 @@ void print_stage(const StageResult& s) {
   std::fflush(stdout);
 }
 
+void print_interrupt(const std::vector<StageResult>& finished, const Stage& stage) {
+  std::printf("interrupted in stage %s (%s); ", stage.label.c_str(), stage.title.c_str());
+  if (finished.empty()) {
+    std::printf("no stage was finished, nothing is written\n");
+  } else {
+    std::printf("the results are those of the stages up to %s\n", finished.back().label.c_str());
+  }
+}
+
 void print_electrodes(const std::vector<StageResult>& stages) {
   bool any = false;
   for (const StageResult& s : stages) any = any || s.lead[left] || s.lead[right];

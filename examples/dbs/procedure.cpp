@@ -1,30 +1,25 @@
 #include "procedure.hpp"
 
 #include <cstdio>
-#include <unistd.h>
 
 namespace dbs {
 
-Stepper Procedure::make_stepper(const Head& head, const Options& options, SceneIds& ids) {
+Stepper Procedure::make_stepper(const Head& head, const Options& options, Watcher* watcher,
+                                SceneIds& ids) {
   StepperOptions stepper;
   stepper.threads = options.threads;
   if (options.accuracy > 0.0) stepper = within(options.accuracy, head.brain, std::move(stepper));
-  if (!options.quiet && isatty(2)) {
-    stepper.progress = [](const Progress& p) {
-      std::fprintf(stderr, "\r  iteration %2d, residual %.1e, load %.3f ", p.iteration, p.residual,
-                   p.load_factor);
-      return true;
-    };
-  }
+  if (watcher) stepper.progress = [watcher](const Progress& p) { return watcher->goes_on(p); };
   return Stepper(make_scene(head, options, ids), stepper);
 }
 
-Procedure::Procedure(const Head& head, const Options& options)
+Procedure::Procedure(const Head& head, const Options& options, Watcher* watcher)
     : m_head(head),
       m_options(options),
+      m_watcher(watcher),
       m_loss{parse_loss(options.left), parse_loss(options.right)},
       m_gravity(gravity_of(options.elevation)),
-      m_stepper(make_stepper(head, options, m_ids)),
+      m_stepper(make_stepper(head, options, watcher, m_ids)),
       m_tissue(head, m_stepper),
       m_full_level(full_level(head, m_gravity)) {
   if (options.time_step > 0.0) m_stepper.set_damping({20.0, 0.0});   // 1/s: rest within a second
@@ -140,12 +135,14 @@ StageResult Procedure::run(const Stage& stage) {
   StageResult result{};
   result.label = stage.label;
   result.title = stage.title;
+  std::size_t place = 0;
   for (std::size_t i = 0; i < m_plan.size(); ++i) {
-    if (m_plan[i].label == stage.label) result.time = double(i);
+    if (m_plan[i].label == stage.label) place = i;
   }
+  result.time = double(place);
+  if (m_watcher) m_watcher->stage_begins(m_plan, place);
   apply(stage);
   result.report = solve();
-  if (!m_options.quiet && isatty(2)) std::fprintf(stderr, "\r%60s\r", "");
   if (stage.action == Action::none && result.report.converged()) {
     m_tissue.set_reference(m_stepper);
     for (int side : {left, right}) {
@@ -162,6 +159,7 @@ StageResult Procedure::run(const Stage& stage) {
     if (m_side[side].device >= 0) result.lead[side] = measure_lead(side);
   }
   result.remark = remark_on(result);
+  if (m_watcher && result.report.converged()) m_watcher->stage_ends();
   return result;
 }
 

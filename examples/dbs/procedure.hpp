@@ -34,11 +34,21 @@ struct Stage {
   int side;
 };
 
+// Told how far a procedure is. The procedure itself prints nothing.
+class Watcher {
+ public:
+  virtual ~Watcher() = default;
+  virtual void stage_begins(const std::vector<Stage>& plan, std::size_t stage) = 0;
+  virtual bool goes_on(const Progress& solve) = 0;   // after every iteration; false ends the solve
+  virtual void stage_ends() = 0;                     // in balance
+};
+
 // Drives a Stepper through the stages.
 class Procedure {
  public:
-  // Throws brainshift::Error for what cannot be, before anything is solved.
-  Procedure(const Head& head, const Options& options);
+  // Throws brainshift::Error for what cannot be, before anything is solved. The watcher, if any, must
+  // outlive the procedure.
+  Procedure(const Head& head, const Options& options, Watcher* watcher = nullptr);
 
   Stepper& stepper() { return m_stepper; }
   const Stepper& stepper() const { return m_stepper; }
@@ -51,7 +61,8 @@ class Procedure {
   const Vec3& gravity() const { return m_gravity; }
 
   const std::vector<Stage>& plan() const { return m_plan; }   // stages that will be done
-  // Applies the changes of a stage and solves; throws brainshift::Error for what cannot be.
+  // Applies the changes of a stage and solves; throws brainshift::Error for what cannot be. After
+  // Status::cancelled the results are of no stage.
   StageResult run(const Stage& stage);
 
   // Where the procedure is, to go on from again: a branch.
@@ -75,7 +86,7 @@ class Procedure {
     std::optional<TipMark> released, closed;  // when the cannula left; at the end of surgery
   };
 
-  static Stepper make_stepper(const Head& head, const Options& options, SceneIds& ids);
+  static Stepper make_stepper(const Head& head, const Options& options, Watcher* watcher, SceneIds& ids);
   std::vector<Stage> make_plan() const;
   void check_losses() const;
   void plan_sides();
@@ -97,6 +108,7 @@ class Procedure {
 
   const Head& m_head;
   Options m_options;
+  Watcher* m_watcher;   // may be null
   Loss m_loss[2];
   Vec3 m_gravity;
   SceneIds m_ids;

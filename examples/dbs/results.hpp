@@ -15,13 +15,16 @@ void print_stage(const StageResult& stage);
 // Tips, bows, forces, and retraction of each electrode from stage to stage.
 void print_electrodes(const std::vector<StageResult>& stages);
 
+// What was written after an interrupt, and in which stage that came.
+void print_interrupt(const std::vector<StageResult>& finished, const Stage& stage);
+
 // Makes the folder, and takes the results of an earlier run out of it.
 void prepare_folder(const std::string& folder);
 // A file, whole or not at all.
 void write_whole(const std::string& path, const std::string& text);
-// stages.json, stages.csv and electrodes.csv; each written whole or not at all.
+// stages.json, stages.csv and electrodes.csv of the stages so far; each written whole or not at all.
 void write_tables(const std::string& folder, const Head& head, const Options& options,
-                  const std::vector<StageResult>& stages);
+                  const std::vector<Stage>& plan, const std::vector<StageResult>& stages);
 
 using Series = std::vector<std::pair<double, std::string>>;   // time and file name
 // stage_N.vtu, the deformed mesh: displacement since stage 0, pressure, wetted, contact_force on

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "brainshift/version.hpp"
 #include "results.hpp"
 
 namespace dbs {
@@ -176,6 +177,7 @@ void write_whole(const std::string& path, const std::string& text) {
 void prepare_folder(const std::string& folder) {
   namespace fs = std::filesystem;
   static const std::regex mine("stage_[0-9][a-c]?(_(left|right)(_track)?)?[.](vtu|vtp|png)|"
+                               "(sheet|figure_lead)_(left|right)[.]png|figure_shift[.]png|"
                                "stages([.]electrodes)?[.]pvd|stages[.](json|csv)|electrodes[.]csv|plan[.]json");
   fs::create_directories(folder);
   std::vector<fs::path> old;
@@ -186,13 +188,15 @@ void prepare_folder(const std::string& folder) {
 }
 
 void write_tables(const std::string& folder, const Head& head, const Options& o,
-                  const std::vector<StageResult>& stages) {
+                  const std::vector<Stage>& plan, const std::vector<StageResult>& stages) {
   nlohmann::json json;
+  json["library"] = "libbrainshift " BRAINSHIFT_VERSION;
   json["head"] = {{"name", head.name}, {"nodes", head.brain.node_count()},
                   {"tets", head.brain.tet_count()}, {"volume_mL", ml(head.brain.volume())}};
   json["frame"] = "RAS";
   json["gravity_mm_s2"] = to_json(gravity_of(o.elevation));
   json["options"] = to_json(o);
+  for (const Stage& stage : plan) json["plan"].push_back(stage.label);   // finished or not
   for (const StageResult& stage : stages) json["stages"].push_back(to_json(stage));
   write_whole(folder + "/stages.json", json.dump(1) + "\n");
   write_whole(folder + "/stages.csv", stages_csv(stages));

@@ -1,19 +1,22 @@
-"""Parts of render.py that know VTK and the files, but nothing of what a picture shows."""
+"""Parts of the pictures that know VTK and the files, but nothing of what a picture shows."""
+import os
+import shutil
 import sys
 
 import numpy as np
 import vtk
+from matplotlib import colormaps
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 SIDES = {"left": 1, "right": 2}   # labels of the walls in cavity.vtp; 3 is the sheet between them
 SHEET = 3
-VIRIDIS = [(0.267, 0.005, 0.329), (0.229, 0.322, 0.546), (0.128, 0.567, 0.551),
-           (0.369, 0.789, 0.383), (0.993, 0.906, 0.144)]
+COLOURS = "viridis"   # matplotlib's; perceptually even, and read by the colour-blind
+LEAD, CONTACT = (1.0, 0.45, 0.0), (0.12, 0.12, 0.16)
 
 
 def read(path):
     if not path.is_file():
-        sys.exit(f"render.py: {path}: no such file")
+        sys.exit(f"{path}: no such file")
     poly = path.suffix == ".vtp"
     reader = vtk.vtkXMLPolyDataReader() if poly else vtk.vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(path))
@@ -35,6 +38,13 @@ def plane(point, normal):
     return result
 
 
+def distance_to(surface):
+    """As an implicit function: negative inside a closed surface."""
+    result = vtk.vtkImplicitPolyDataDistance()
+    result.SetInput(surface)
+    return result
+
+
 def cut(data, where):
     cutter = vtk.vtkCutter()
     cutter.SetCutFunction(where)
@@ -51,6 +61,15 @@ def clip(data, where, above):
 def filled(contour):
     """The area inside closed lines."""
     return pipe(contour, vtk.vtkContourTriangulator())
+
+
+def band(outside, inside):
+    """The area between two sets of closed lines in one plane."""
+    both = vtk.vtkAppendPolyData()
+    both.AddInputData(outside)
+    both.AddInputData(inside)
+    both.Update()
+    return filled(both.GetOutput())
 
 
 def surface_of(grid):
@@ -87,12 +106,61 @@ def skull_of(cavity):
     return surface_of(pipe(cavity, threshold))
 
 
-def segment(a, b):
-    source = vtk.vtkLineSource()
-    source.SetPoint1(a)
-    source.SetPoint2(b)
-    source.Update()
-    return source.GetOutput()
+def region_of(grid, number):
+    """The tets of one region."""
+    threshold = vtk.vtkThreshold()
+    threshold.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_CELLS, "region")
+    threshold.SetLowerThreshold(number - 0.5)
+    threshold.SetUpperThreshold(number + 0.5)
+    return pipe(grid, threshold)
+
+
+def smooth(surface):
+    """With normals at its points, so that it is shaded without facets."""
+    normals = vtk.vtkPolyDataNormals()
+    normals.SetFeatureAngle(80.0)
+    normals.SplittingOff()
+    return pipe(surface, normals)
+
+
+def thickened(skull, thickness):
+    """The outside of a skull whose inner table is given; the tentorium has no bone behind it."""
+    result = vtk.vtkPolyData()
+    result.DeepCopy(smooth(skull))
+    soft = pipe(skull, vtk.vtkCellDataToPointData()).GetPointData().GetArray("tentorium")
+    points = vtk_to_numpy(result.GetPoints().GetData())
+    normals = vtk_to_numpy(result.GetPointData().GetNormals())
+    bony = 1.0 - vtk_to_numpy(soft) if soft else np.ones(len(points))
+    shifted = vtk.vtkPoints()
+    shifted.SetData(numpy_to_vtk(points + thickness * bony[:, None] * normals, deep=True))
+    result.SetPoints(shifted)
+    return result
+
+
+def where_tentorium(skull, is_it):
+    """The triangles of the wall that are the tentorium, or those that are not."""
+    if not skull.GetCellData().GetArray("tentorium"):
+        return vtk.vtkPolyData() if is_it else skull
+    threshold = vtk.vtkThreshold()
+    threshold.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_CELLS, "tentorium")
+    threshold.SetLowerThreshold(0.5 if is_it else -0.5)
+    threshold.SetUpperThreshold(1.5 if is_it else 0.5)
+    return surface_of(pipe(skull, threshold))
+
+
+def ring(centre, axis, radius):
+    circle = vtk.vtkRegularPolygonSource()
+    circle.SetNumberOfSides(48)
+    circle.SetCenter(centre)
+    circle.SetNormal(axis)
+    circle.SetRadius(radius)
+    circle.GeneratePolygonOff()
+    tube = vtk.vtkTubeFilter()
+    tube.SetInputConnection(circle.GetOutputPort())
+    tube.SetRadius(0.12 * radius)
+    tube.SetNumberOfSides(12)
+    tube.Update()
+    return tube.GetOutput()
 
 
 def actor(data, colour=None, lookup=None, opacity=1.0, width=1.0, edges=False, cells=None):
@@ -116,6 +184,8 @@ def actor(data, colour=None, lookup=None, opacity=1.0, width=1.0, edges=False, c
     if colour:
         look.SetColor(colour)
     look.SetOpacity(opacity)
+    look.SetAmbient(0.32)
+    look.SetDiffuse(0.8)
     look.SetLineWidth(width)
     if edges:
         look.EdgeVisibilityOn()
@@ -127,49 +197,31 @@ def actor(data, colour=None, lookup=None, opacity=1.0, width=1.0, edges=False, c
 def flat(result):
     """Without shading: for cuts, whose colour alone has a meaning."""
     result.GetProperty().LightingOff()
+    result.GetProperty().SetAmbient(1.0)
+    result.GetProperty().SetDiffuse(0.0)
     return result
 
 
 def colours(largest):
+    """From 0 to `largest`, as matplotlib's bar beside the pictures shows it."""
     table = vtk.vtkColorTransferFunction()
-    for i, rgb in enumerate(VIRIDIS):
-        table.AddRGBPoint(largest * i / (len(VIRIDIS) - 1), *rgb)
+    for part in np.linspace(0.0, 1.0, 33):
+        table.AddRGBPoint(largest * part, *colormaps[COLOURS](part)[:3])
     return table
 
 
 def contact_colours():
-    """Orange where the contact number is 0, dark on contacts."""
+    """Dark on contacts; orange elsewhere, where the contact number is 0."""
     table = vtk.vtkColorTransferFunction()
-    for value, rgb in ((0.0, (0.95, 0.55, 0.1)), (0.5, (0.95, 0.55, 0.1)), (0.51, (0.15, 0.15, 0.2)),
-                       (99.0, (0.15, 0.15, 0.2))):
+    for value, rgb in ((0.0, LEAD), (0.5, LEAD), (0.51, CONTACT), (99.0, CONTACT)):
         table.AddRGBPoint(value, *rgb)
     return table
 
 
-def label(text, x, y, size):
-    result = vtk.vtkTextActor()
-    result.SetInput(text)
-    result.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-    result.SetPosition(x, y)
-    result.GetTextProperty().SetFontSize(size)
-    result.GetTextProperty().SetColor(0, 0, 0)
-    return result
-
-
-def scale_bar(lookup):
-    bar = vtk.vtkScalarBarActor()
-    bar.SetLookupTable(lookup)
-    bar.SetTitle("displacement, mm\n")
-    bar.SetNumberOfLabels(5)
-    bar.SetLabelFormat("%.2g")
-    bar.SetPosition(0.78, 0.04)
-    bar.SetWidth(0.2)
-    bar.SetHeight(0.4)
-    bar.UnconstrainedFontSizeOn()
-    for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
-        text.SetColor(0, 0, 0)
-        text.SetFontSize(13)
-        text.ShadowOff()
-        text.ItalicOff()
-        text.BoldOff()
-    return bar
+def need_display():
+    """Debian's VTK draws through an X server only, off screen too: starts again in a virtual one."""
+    if os.environ.get("DISPLAY"):
+        return
+    if not shutil.which("xvfb-run"):
+        sys.exit("no display, and no xvfb-run to make one (cmake/install-deps.sh docs)")
+    os.execvp("xvfb-run", ["xvfb-run", "-a", sys.executable, *sys.argv])

@@ -32,10 +32,11 @@ def lines_of(block):
 
 
 def commands_of(path):
-    """(line, command): all lines of sh blocks; and in backticks what begins with a program."""
+    """(line, command): all lines of sh blocks that are not run as they stand; and in backticks what begins with a
+    program."""
     blocks, prose = parse(read(path))
     for block in blocks:
-        if block.language in SHELL:
+        if block.language in SHELL and not str(path).startswith(RUN_WHOLE):
             yield from ((block.line, command) for command in lines_of(block))
     yield from ((line, text) for line, text in in_backticks(prose) if is_command(text))
 
@@ -50,12 +51,11 @@ def hidden_commands(path):
 
 
 def all_commands():
-    """Command -> the places where it stands; those of the documents that are run whole are left out."""
+    """Command -> the places where it stands."""
     found = {}
     for path in documents():
-        if not str(path).startswith(RUN_WHOLE):
-            for line, command in commands_of(path):
-                found.setdefault(command, []).append(f"{path}:{line}")
+        for line, command in commands_of(path):
+            found.setdefault(command, []).append(f"{path}:{line}")
     return found
 
 

@@ -19,6 +19,8 @@ exclude_patterns = ["build", "out", ".git", "**/data"]
 
 html_theme = "sphinx_rtd_theme"
 html_theme_options = {"navigation_depth": 2}
+html_static_path = ["static"]
+html_css_files = ["tables.css"]   # cells that break lines
 html_copy_source = False
 html_show_sphinx = False
 

@@ -5,7 +5,7 @@ import pathlib
 import re
 import unittest
 
-from documents import SOURCE, read
+from documents import SOURCE, documents, read
 
 THEORY = read("docs/theory.md")
 FOLDERS = ["include", "src", "capi", "examples", "bench", "tests"]
@@ -91,15 +91,22 @@ def faults(equations, subjects, citations):
 
 
 class Equations(unittest.TestCase):
+    EQUATIONS = equations()
+
     def test_are_numbered_without_a_gap(self):
-        numbers = sorted({int(n.rstrip("a")) for n in equations()})
+        numbers = sorted({int(n.rstrip("a")) for n in self.EQUATIONS})
         self.assertEqual(numbers, list(range(1, len(numbers) + 1)))
 
     def test_cited_ones_are_there_and_about_the_same_thing(self):
         citations = [(f"{path.relative_to(SOURCE)}:{line}", number, comment) for path in source_files()
                      for line, comment in comments_that_cite(path) for number in cited_numbers(comment)]
         self.assertGreater(len(citations), 15)
-        self.assertEqual(list(faults(equations(), subjects(), citations)), [])
+        self.assertEqual(list(faults(self.EQUATIONS, subjects(), citations)), [])
+
+    def test_those_that_documents_cite_are_there(self):
+        for path in documents():
+            for number in re.findall(r"theory\.md\)?,? " + NUMBER, read(path)):
+                self.assertIn(number, self.EQUATIONS, path)
 
     def test_cited_sections_are_there(self):
         sections = set(re.findall(r"^## (\d+)\.", THEORY, re.M))
@@ -109,7 +116,7 @@ class Equations(unittest.TestCase):
                     self.assertIn(number, sections, f"{path}:{line}")
 
     def test_a_wrong_number_would_be_found(self):
-        wrong = list(faults(equations(), subjects(), [("a.cpp:1", "9", "the waterline (9)"),
+        wrong = list(faults(self.EQUATIONS, subjects(), [("a.cpp:1", "9", "the waterline (9)"),
                                                       ("a.cpp:2", "99", "nothing (99)")]))
         self.assertEqual(len(wrong), 2)
 

@@ -82,6 +82,17 @@ class Formats(unittest.TestCase):
         kinds = re.search(r"enum class BytesKind.*{ (\w+) = (\d), (\w+) = (\d) }", header).groups()
         self.assertIn("({1} {0}, {3} {2})".format(*kinds), " ".join(PAGE.split()))
 
+    def test_keys_and_events_of_the_progress(self):
+        code = (SOURCE / "examples/dbs/progress.cpp").read_text(encoding="utf-8")
+        main = (SOURCE / "examples/dbs/main.cpp").read_text(encoding="utf-8")
+        keys = set(re.findall(r'object\["(\w+)"\]', code)) | set(re.findall(r'{"(\w+)", ', code))
+        events = set(re.findall(r'say\("([^"]+)"\)', code)) | {
+            event for call in re.findall(r"meter\.end\((.*)\);", main) for event in re.findall(r'"(\w+)"', call)}
+        self.assertGreater(len(keys), 10)
+        page = next(p for p in PAGE.split("\n\n") if p.startswith("`--progress json`"))
+        self.assertEqual(keys - named(page), set())
+        self.assertEqual(events - named(page), set())
+
 
 if __name__ == "__main__":
     RESULTS = pathlib.Path(sys.argv.pop(1))

@@ -1,7 +1,8 @@
 """Links within the documents lead to files and headings that are there."""
+import re
 import unittest
 
-from documents import SOURCE, anchors, documents, links, parse, read
+from documents import SOURCE, anchors, documents, in_backticks, links, parse, read
 
 
 def broken(path):
@@ -20,6 +21,18 @@ def broken(path):
 class Links(unittest.TestCase):
     def test_lead_to_files_and_headings_that_are_there(self):
         self.assertEqual([fault for path in documents() for fault in broken(path)], [])
+
+    def test_files_that_are_named_are_there(self):
+        """In backticks what begins with a folder of the tree is a file of it, or a pattern that some fit."""
+        folders = {p.name for p in SOURCE.iterdir() if p.is_dir()} - {"build", "out", ".git"}
+        gone = []
+        for path in documents():
+            for line, text in in_backticks(parse(read(path))[1]):
+                if re.fullmatch(r"[\w./*-]+", text) and text.partition("/")[0] in folders and "/" in text:
+                    places = (SOURCE, (SOURCE / path).parent, SOURCE / "examples")
+                    if not any(True for place in places for _ in place.glob(text.rstrip("/"))):
+                        gone.append(f"{path}:{line}: {text}")
+        self.assertEqual(gone, [])
 
     def test_every_document_is_reached_from_the_readme(self):
         reached, open_ends = set(), [SOURCE / "README.md"]

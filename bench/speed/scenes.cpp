@@ -8,9 +8,11 @@ namespace {
 
 using namespace dbs;
 
-Options quiet(int threads) {
+// Arguments of every scene: threads, and the accuracy in micrometres (0: as exact as can be).
+Options quiet(const benchmark::State& state) {
   Options options;
-  options.threads = threads;
+  options.threads = int(state.range(0));
+  options.accuracy = 1e-3 * double(state.range(1));
   options.quiet = true;
   return options;
 }
@@ -38,7 +40,7 @@ Work run_all(Procedure& procedure, const std::vector<Stage>& plan) {
 
 // 20 mL lost on each side, no devices; from files to the last stage but for reading them.
 void csf_loss(benchmark::State& state) {
-  Options options = quiet(int(state.range(0)));
+  Options options = quiet(state);
   options.devices = false;
   Work work;
   for (auto _ : state) {
@@ -51,7 +53,7 @@ void csf_loss(benchmark::State& state) {
 void procedure_of_both_sides(benchmark::State& state) {
   Work work;
   for (auto _ : state) {
-    Procedure procedure(bench::head(), quiet(int(state.range(0))));
+    Procedure procedure(bench::head(), quiet(state));
     work = run_all(procedure, procedure.plan());
   }
   work.tell(state);
@@ -59,7 +61,7 @@ void procedure_of_both_sides(benchmark::State& state) {
 
 // Stages 2 to 5 of the right side once more, two millimetres beside, from the state after stage 1.
 void what_if(benchmark::State& state) {
-  Options options = quiet(int(state.range(0)));
+  Options options = quiet(state);
   options.sides = "right";
   Procedure procedure(bench::head(), options);
   const std::vector<Stage> plan = procedure.plan();
@@ -84,6 +86,9 @@ void what_if(benchmark::State& state) {
 
 }  // namespace
 
-BENCHMARK(csf_loss)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->Iterations(1)->UseRealTime();
-BENCHMARK(procedure_of_both_sides)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->Iterations(1)->UseRealTime();
-BENCHMARK(what_if)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->Iterations(1)->UseRealTime();
+#define SCENE(name)                                                            \
+  BENCHMARK(name)->ArgNames({"threads", "um"})->ArgsProduct({{1, 2}, {0, 100}}) \
+      ->Unit(benchmark::kMillisecond)->Iterations(1)->UseRealTime()
+SCENE(csf_loss);
+SCENE(procedure_of_both_sides);
+SCENE(what_if);

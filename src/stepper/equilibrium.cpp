@@ -23,7 +23,9 @@ Equilibrium::Equilibrium(const Scene& scene)
   }
   if (scene.csf) m_fluid.emplace(scene.mesh, *scene.csf, scene.gravity);
   // Forces of a millionth of E L^2 are far below any load that moves the body visibly.
-  m_force_floor = 1e-6 * m_tissue.stiffness_scale() * mesh().diameter() * mesh().diameter();
+  const double area = mesh().diameter() * mesh().diameter();
+  m_force_floor = 1e-6 * m_tissue.stiffest() * area;
+  m_softest_floor = 1e-6 * m_tissue.softest() * area;
   configure(scene.constraints, scene.csf, scene.gravity);
 }
 

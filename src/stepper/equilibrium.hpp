@@ -60,7 +60,10 @@ class Equilibrium {
 
   // Forces of contact rows with the given multipliers, on blocks.
   Eigen::VectorXd contact_force(const Forces& f, const std::vector<double>& multipliers) const;
-  double force_floor() const { return m_force_floor; }   // mN: below it a force counts as none
+  // mN: below it a force counts as none, with the stiffest modulus and with the softest. The rounding of a
+  // residual goes with the first; a load that moves something is to be told from none by the second.
+  double force_floor() const { return m_force_floor; }
+  double softest_floor() const { return m_softest_floor; }
 
  private:
   Tissue m_tissue;
@@ -77,7 +80,7 @@ class Equilibrium {
   ContactRows m_contacts;
   std::vector<NodeRow> m_fixed;
   Eigen::VectorXd m_springs;         // mN/mm per node
-  double m_force_floor = 0.0;
+  double m_force_floor = 0.0, m_softest_floor = 0.0;
 };
 
 }  // namespace brainshift

@@ -145,6 +145,7 @@ class Newton {
   bool m_definite = false;              // with the projected tangent
   bool m_lost_stability = false;        // of the last tangent that was factored
   int m_iteration = 0;                  // since begin()
+  double m_softest_scale = 0.0;   // mN; that of the residual, with the floor of the softest tissue
   double m_last = 0.0, m_previous = 0.0;   // mm; lengths of the last two steps
 };
 

@@ -10,6 +10,8 @@ namespace brainshift {
 namespace {
 
 constexpr double rounding_up = 1.0 + 1e-9;
+// Of the load on the softest tissue; more than that is not rounding of the forces in a hard one.
+constexpr double most_open = 1e-4;
 
 }  // namespace
 
@@ -24,8 +26,10 @@ void Newton::measure() {
       std::max({max_norm(contact), max_norm(coupling), max_norm(total - rest)});
   double scale = std::max({max_norm(blocks.gather(m_forces.internal)),
                            max_norm(blocks.gather(m_forces.external) + m_offset.tissue), constraint,
-                           m_eq.force_floor()});
+                           m_eq.softest_floor()});
   if (m_euler) scale = std::max({scale, max_norm(m_inertia), max_norm(m_damping)});
+  m_softest_scale = scale;
+  scale = std::max(scale, m_eq.force_floor());
   m_state.open_force = std::max(max_norm(rest), device_residual());
   m_report.residual = m_state.open_force / scale;
   // A norm may skip what is not a number; a certificate must not.
@@ -55,13 +59,14 @@ bool Newton::unchanged(const MechanicalState& start) const {
   if (m_report.complementarity > m_options.complementarity_tolerance) return false;
   const double ties = 1e-4 * m_options.correction_tolerance * m_eq.mesh().diameter();
   const bool still = !m_euler && m_report.residual <= m_options.residual_tolerance;
-  return (m_report.residual <= 1e-4 * m_options.residual_tolerance ||
+  return (m_state.open_force <= 1e-4 * m_options.residual_tolerance * m_softest_scale ||
           (still && m_state.open_force <= rounding_up * start.open_force)) &&
          (m_report.tie_gap <= ties || (still && m_report.tie_gap <= rounding_up * start.open_tie));
 }
 
 bool Newton::small_enough(double last_correction) const {
   return m_report.residual <= m_options.residual_tolerance &&
+         m_state.open_force <= std::max(m_options.residual_tolerance, most_open) * m_softest_scale &&
          m_report.complementarity <= m_options.complementarity_tolerance &&
          m_report.tie_gap <= m_options.correction_tolerance * m_eq.mesh().diameter() &&
          last_correction <= m_options.correction_tolerance * m_eq.mesh().diameter();

@@ -28,11 +28,18 @@ void Newton::make_feasible(double part, Points& u, std::vector<char>& touched) c
   const ContactRows& contacts = m_eq.contacts();
   const double slack = closed_gap * m_eq.mesh().diameter();
   touched = m_active;
+  std::vector<char> stirred(std::size_t(m_eq.blocks().count()), 1), before;   // blocks moved in a sweep
   for (int sweep = 0; sweep < 20; ++sweep) {
     double worst = 0.0;
+    before.assign(stirred.size(), 0);
+    std::swap(before, stirred);
     for (std::size_t r = 0; r < contacts.size(); ++r) {
-      const GapSample g = contacts.sample(r, u);
       const ContactRow& row = contacts.row(r);
+      const auto moved = [&](Index block) {
+        return block >= 0 && (before[std::size_t(block)] || stirred[std::size_t(block)]);
+      };
+      if (!moved(row.node) && !moved(row.partner)) continue;   // as it was found
+      const GapSample g = contacts.sample(r, u);
       const Vec3 push = free_part(row.node, g.normal);
       const Vec3 back = row.partner >= 0 ? free_part(row.partner, g.normal) : Vec3(Vec3::Zero());
       const double mobility = g.normal.dot(push + back);
@@ -43,7 +50,10 @@ void Newton::make_feasible(double part, Points& u, std::vector<char>& touched) c
       if (!touched[r] || std::abs(over) <= slack) continue;
       worst = std::max(worst, std::abs(over));
       m_eq.blocks().move(row.node, -over / mobility * push, u);
-      if (row.partner >= 0) m_eq.blocks().move(row.partner, over / mobility * back, u);
+      stirred[std::size_t(row.node)] = 1;
+      if (row.partner < 0) continue;
+      m_eq.blocks().move(row.partner, over / mobility * back, u);
+      stirred[std::size_t(row.partner)] = 1;
     }
     if (worst == 0.0) break;
   }

@@ -27,7 +27,8 @@ Tissue::Tissue(const Mesh& mesh, const std::vector<std::pair<Index, Material>>& 
       }
     }
     m_parts.push_back({material, {}});
-    m_scale = std::max(m_scale, material.young());
+    m_stiffest = std::max(m_stiffest, material.young());
+    m_softest = std::min(m_softest, material.young());
   }
   for (Index t = 0; t < mesh.tet_count(); ++t) {
     const Index region = mesh.regions()[std::size_t(t)];

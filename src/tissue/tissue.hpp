@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -56,7 +57,8 @@ class Tissue {
   Eigen::VectorXd jacobians(const Points& u) const;
   // Neighbours of each node in the stiffness, sorted.
   std::vector<Indices> node_adjacency() const;
-  double stiffness_scale() const { return m_scale; }  // largest Young's modulus, kPa
+  double stiffest() const { return m_stiffest; }   // largest and smallest Young's modulus, kPa
+  double softest() const { return m_softest; }
 
  private:
   struct Part {  // tets that share a material
@@ -98,7 +100,7 @@ class Tissue {
   // memory, libstdc++ 12 visits one that holds nothing.)
   std::shared_ptr<const Elements> m_elements;
   NodalVolume m_volume;  // empty unless volumes are averaged at nodes
-  double m_scale = 0.0;
+  double m_stiffest = 0.0, m_softest = std::numeric_limits<double>::infinity();
   int m_threads = 1;
 };
 

@@ -32,6 +32,29 @@ void expect_error(ErrorCode code, const std::string& word, Call&& call) {
   }
 }
 
+// Rounding of the forces in a hard inclusion grows with its modulus; the load of the soft part must not be
+// taken for such rounding before anything has moved.
+TEST(Failures, ALoadIsNotHiddenByAHardInclusion) {
+  const test::TetShape shape = test::make_box({30, 30, 30}, 3, 3, 3);
+  Indices regions(std::size_t(shape.tets.rows()), 0);
+  for (std::size_t t = 6 * 13; t < 6 * 14; ++t) regions[t] = 1;  // the cell in the middle
+  for (const double ratio : {1e4, 1e8, 1e14, 1e16}) {
+    for (const bool fine : {false, true}) {
+      Scene scene{test::make_mesh(shape, regions),
+                  {{0, Material(Law::linear, 6.0, 0.45, test::tissue_density)},
+                   {1, Material(Law::linear, 6.0 * ratio, 0.45, test::tissue_density)}},
+                  Vec3(1e3, 0, -3e3)};
+      scene.balanced_reference = false;
+      scene.constraints.fix("base", bottom(scene.mesh));
+      Stepper stepper(fine ? quadratic(scene) : scene);
+      const SolveReport report = stepper.solve_static();
+      const double moved = stepper.displacement().cwiseAbs().maxCoeff();
+      EXPECT_TRUE(report.converged() || ratio > 1e8) << report.message;
+      EXPECT_NEAR(moved, report.converged() ? (fine ? 0.4 : 0.27) : 0.0, 0.02) << ratio;
+    }
+  }
+}
+
 TEST(Failures, ABodyThatNothingHolds) {
   expect_error(ErrorCode::rigid_mode, "6 rigid", [] { Stepper(block()).solve_static(); });
 }

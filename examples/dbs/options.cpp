@@ -160,7 +160,8 @@ int parse(int argc, char** argv, Options& o) {
   app.add_flag("--vtk,!--no-vtk", o.vtk, "VTU and VTP files among them");
   app.add_flag("--estimate", o.estimate, "estimate by how much the mesh has the landmarks wrong (stages.json)");
   app.add_option("--accuracy", o.accuracy,
-                 "mm: solves end where less than that is left open; 0: as exact as they can be");
+                 "mm: solves end where less than that is left open; 0: as exact as they can be")
+      ->check(CLI::Range(0.0, 10.0));
   app.add_option("--threads", o.threads, "of the solver; no result depends on it")
       ->capture_default_str()->check(CLI::Range(1, 256));
   app.add_option("--progress", o.progress, "on stderr. auto: a line where that is a terminal, else "

@@ -1,6 +1,7 @@
 // What a stepper promises about its state: snapshots, failures, cancelling, repeatability, points.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "brainshift/error.hpp"
@@ -28,6 +29,57 @@ TEST(State, RestoreBringsBackTheSameBits) {
   EXPECT_TRUE(test::same_bits(f, stepper.external_force()));
   EXPECT_EQ(stepper.csf().amount(0), 2000.0);
   EXPECT_TRUE(test::same_bits(contact.force, stepper.contact(0).force));
+}
+
+TEST(State, ASolveThatBeginsWhereTheLastOneEndedIsEnded) {
+  const Scene scene = busy_scene();
+  for (const bool loose : {false, true}) {
+    Stepper stepper(scene, loose ? within(0.1, scene.mesh) : StepperOptions{});
+    stepper.csf().set_lost_volume(0, 9000.0);
+    ASSERT_TRUE(stepper.solve_static().converged());
+    const Points u = stepper.displacement();
+    const Bytes kept = bytes_of(*stepper.snapshot());
+    EXPECT_EQ(stepper.solve_static().iterations, 0);
+    EXPECT_TRUE(test::same_bits(u, stepper.displacement()));
+    Stepper other(scene, loose ? within(0.1, scene.mesh) : StepperOptions{});
+    other.restore(other.read_snapshot(kept));   // it knows so from its bytes too
+    EXPECT_EQ(other.solve_static().iterations, 0);
+  }
+}
+
+// Changes too small for the tolerance of one solve are not lost: they add up.
+TEST(State, SmallChangesAddUp) {
+  const Scene scene = busy_scene();
+  Stepper exact(scene), loose(scene, within(0.1, scene.mesh));
+  const int parts = 400;
+  for (int i = 0; i <= parts; ++i) {
+    const Vec3 gravity = standard_gravity * Vec3(0.6 * i / parts, 0.0, -1.0);
+    loose.set_gravity(gravity);
+    const SolveReport report = loose.solve_static();
+    ASSERT_TRUE(report.converged()) << report.message;
+    exact.set_gravity(gravity);
+  }
+  ASSERT_TRUE(exact.solve_static().converged());
+  EXPECT_GT(exact.displacement().cwiseAbs().maxCoeff(), 0.2);
+  EXPECT_LE((loose.displacement() - exact.displacement()).cwiseAbs().maxCoeff(), 0.1);
+}
+
+TEST(State, WithinAnAccuracy) {
+  const Scene scene = busy_scene();
+  Stepper exact(scene);
+  exact.csf().set_lost_volume(0, 9000.0);
+  const SolveReport far = exact.solve_static();
+  for (const double accuracy : {1.0, 0.1, 0.01}) {
+    Stepper stepper(scene, within(accuracy, scene.mesh));
+    stepper.csf().set_lost_volume(0, 9000.0);
+    const SolveReport report = stepper.solve_static();
+    ASSERT_TRUE(report.converged()) << report.message;
+    EXPECT_LE((stepper.displacement() - exact.displacement()).rowwise().norm().maxCoeff(), accuracy);
+    EXPECT_LT(report.iterations, far.iterations);
+  }
+  for (const double bad : {0.0, -0.1, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(within(bad, scene.mesh), Error);
+  }
 }
 
 TEST(State, ASolveAfterRestoreIsTheSolveItWouldHaveBeen) {

@@ -11,11 +11,12 @@ Groups (default: core):
          the io target and the examples
   test   GoogleTest; Python with numpy and VTK for checks against VTK; where it can be had,
          Siconos for a cross-check of complementarity problems, abidiff for the ABI of the C face,
-         Doxygen for the reference, and what draws pictures and reports, with Chromium to look at them
+         Doxygen and Sphinx for the reference and the site, and what draws pictures and reports, with Chromium to look at them
   data   what examples/head needs to make the head anew: volumes, CGAL, Python packages
   own_head  what examples/own_head needs: CGAL, Python packages (nibabel, VTK)
   fuzz   clang with libFuzzer and clang-tidy, for tests/robustness
   docs   what draws pictures, charts and reports: VTK, matplotlib, a virtual X server
+  site   what makes the site of documents: Sphinx with MyST, Doxygen
   bench  Google Benchmark
 
 Does nothing where all is installed. Needs root or sudo only if something is missing.
@@ -88,6 +89,13 @@ xauth|command:xauth|xauth
 libgl1-mesa-dri|-|a software OpenGL
 END
       ;;
+    site) cat <<'END'
+python3-sphinx|python:sphinx|Sphinx
+python3-myst-parser|python:myst_parser|MyST
+python3-sphinx-rtd-theme|python:sphinx_rtd_theme|Sphinx's theme of Read the Docs
+doxygen|command:doxygen|Doxygen
+END
+      ;;
     bench) cat <<'END'
 libbenchmark-dev|header:benchmark/benchmark.h|Google Benchmark
 END
@@ -102,6 +110,9 @@ optional_of() {
 libsiconos-numerics-dev|header:siconos/SiconosConfig.h|Siconos
 abigail-tools|command:abidiff|abidiff
 doxygen|command:doxygen|Doxygen
+python3-sphinx|python:sphinx|Sphinx
+python3-myst-parser|python:myst_parser|MyST
+python3-sphinx-rtd-theme|python:sphinx_rtd_theme|Sphinx's theme of Read the Docs
 python3-matplotlib|python:matplotlib|matplotlib
 python3-pil|python:PIL|Pillow
 xvfb|command:xvfb-run|Xvfb
@@ -221,8 +232,8 @@ main() {
   for group in "$@"; do
     case "$group" in
       -h | --help) usage; exit 0 ;;
-      core | test | data | own_head | fuzz | docs | bench) ;;
-      *) echo "install-deps: unknown group '$group'; known: core test data own_head fuzz docs bench" >&2; exit 2 ;;
+      core | test | data | own_head | fuzz | docs | site | bench) ;;
+      *) echo "install-deps: unknown group '$group'; known: core test data own_head fuzz docs site bench" >&2; exit 2 ;;
     esac
   done
   [ $# -gt 0 ] || set -- core

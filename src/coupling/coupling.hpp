@@ -14,8 +14,8 @@
 
 #include <vector>
 
+#include "contact/blocks.hpp"
 #include "coupling/inserted_device.hpp"
-#include "stepper/blocks.hpp"
 
 namespace brainshift {
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "brainshift/stepper.hpp"
+#include "contact/blocks.hpp"
 #include "contact/contact_rows.hpp"
 #include "contact/reduction.hpp"
 #include "fluid/hydrostatics.hpp"
-#include "stepper/blocks.hpp"
 #include "tissue/tissue.hpp"
 
 namespace brainshift {

@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 
 #include "brainshift/stepper.hpp"
+#include "contact/blocks.hpp"
 #include "mesh/edge_nodes.hpp"
-#include "stepper/blocks.hpp"
 
 namespace brainshift {
 namespace {

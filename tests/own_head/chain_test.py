@@ -11,10 +11,10 @@ from support import EXAMPLE, SOURCE, WORK
 
 
 def commands():
-    """Lines of the README's indented blocks that call a program of the example."""
+    """Lines of the README's sh blocks that call a program of the example."""
     text = (EXAMPLE / "README.md").read_text(encoding="utf-8")
     return [line.strip().split("  #")[0] for line in text.splitlines()
-            if re.match(r"^ {4}examples/own_head/", line)]
+            if re.match(r"^examples/own_head/", line)]
 
 
 class Chain(unittest.TestCase):

@@ -1,4 +1,4 @@
-#include "stepper/blocks.hpp"
+#include "contact/blocks.hpp"
 
 #include <algorithm>
 #include <numeric>

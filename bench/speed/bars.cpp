@@ -126,7 +126,8 @@ void bar_sags(benchmark::State& state) {
 
 }  // namespace
 
-BENCHMARK(bar_factor_and_solve)->Arg(6)->Arg(9)->Arg(14)->Unit(benchmark::kMillisecond)->Iterations(3)->UseManualTime();
-BENCHMARK(bar_step)->Arg(6)->Arg(9)->Arg(14)->Unit(benchmark::kMillisecond)->Iterations(3)->UseManualTime();
-BENCHMARK(bar_step_on_floor)->Args({9, 300})->Unit(benchmark::kMillisecond)->Iterations(3)->UseManualTime();
-BENCHMARK(bar_sags)->Arg(6)->Unit(benchmark::kMillisecond)->Iterations(1)->UseManualTime();
+#define BAR(name) BENCHMARK(name)->Unit(benchmark::kMillisecond)->UseManualTime()
+BAR(bar_factor_and_solve)->Arg(6)->Arg(9)->Arg(14)->Iterations(3);
+BAR(bar_step)->Arg(6)->Arg(9)->Arg(14)->Iterations(3);
+BAR(bar_step_on_floor)->Args({9, 300})->Iterations(3);
+BAR(bar_sags)->Arg(6)->Iterations(1);

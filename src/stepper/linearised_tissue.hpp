@@ -74,7 +74,8 @@ class LinearisedTissue {
   std::vector<std::size_t> m_released_tags, m_row_tags;
   std::vector<int> m_columns;                // of the solver, for T^T [K Z, N]
   DenseLu m_schur;
-  Eigen::MatrixXd m_to_path, m_from_path;    // border x path: E^T A^-1 P - Z^T P, with columns and rows of the terms
+  // Border x path: E^T A^-1 P - Z^T P, with the columns and with the rows of the terms.
+  Eigen::MatrixXd m_to_path, m_from_path;
   Eigen::MatrixXd m_compliance;
   Eigen::VectorXd m_border, m_free_path;
 };

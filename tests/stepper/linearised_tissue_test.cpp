@@ -143,7 +143,8 @@ TEST(LinearisedTissue, ServesItsOwnSet) {
 
 TEST(LinearisedTissue, ServesOtherSetsInAnyOrder) {
   const Problem p;
-  const std::vector<std::vector<int>> sets{{}, {0}, {0, 1}, {2, 5}, {5, 6}, {2, 6}, {3, 7}, {1, 3, 4, 7}, {0, 1, 2, 3, 4, 5, 6, 7}};
+  const std::vector<std::vector<int>> sets{{},     {0},    {0, 1},       {2, 5},                  {5, 6},
+                                           {2, 6}, {3, 7}, {1, 3, 4, 7}, {0, 1, 2, 3, 4, 5, 6, 7}};
   for (const std::vector<int>& factored : sets) {
     Served served(p, factored);
     for (const std::vector<int>& set : sets) {

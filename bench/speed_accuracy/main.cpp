@@ -52,7 +52,7 @@ json to_json(const Outcome& outcome, const std::vector<Probe>& probes) {
   json stages = json::array(), where = json::array();
   for (const bench::Solved& solved : outcome.stages) stages.push_back(to_json(solved, probes));
   for (const Probe& p : probes) where.push_back({{"name", p.name}, {"kind", p.kind}, {"point", to_json(p.point)}});
-  return {{"library", BRAINSHIFT_VERSION}, {"nodes", outcome.nodes}, {"tets", outcome.tets},
+  return {{"library", BRAINSHIFT_VERSION}, {"air_mL", bench::air}, {"nodes", outcome.nodes}, {"tets", outcome.tets},
           {"probes", where}, {"stages", stages}, {"cpu_seconds", outcome.cpu},
           {"wall_seconds", outcome.wall}};
 }

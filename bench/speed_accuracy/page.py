@@ -1,0 +1,103 @@
+"""docs/charts/speed_accuracy.md, all of it from the runs."""
+from cases import LADDER, SCENES
+from front import cheapest, pareto
+
+BOUNDS = (1.0, 0.5, 0.1)
+
+INTRO = """# Speed against accuracy
+
+Written by `bench/speed_accuracy/run{options}`. How long a solve takes, and how far the answer is off: rungs of the
+ladder on each mesh, co-rotational tissue, Poisson's ratio 0.45, {air:g} mL of air on each side.
+
+![chart](speed_accuracy.svg)
+
+- **Cost**: CPU time of one thread from the head in memory to the last stage, in yardsticks. A yardstick is one
+  numeric factor and one solve of the stiffness of both halves of the medium head, in the same process, before and
+  after (median {yardstick:.3f} s here; {processor}).
+- **Error**: the largest over {points} points (subthalamic nuclei, the planned tracks every 10 mm, midline, cortex), the
+  tips of the leads, and all stages, from the reference of the same head: quadratic tets on that head's
+  geometry, default tolerances, the same law, the same volume of air. *M0* and *M2* count from the co-rotational
+  reference: what they leave out is in their error. So is what the fluid's level, found for each mesh, changes.
+- **Off the exact solve**: the same largest difference, from the same mesh and elements solved to the default
+  tolerances with the co-rotational law (of M4: its own): what the rung itself costs, without the mesh.
+- *M2* does one linearisation in each solve: relative tolerances of 10 and a correction of any length end it after the
+  first. A stage in which nothing changes needs none.
+- Lines at 1, 0.5 and 0.1 mm; ringed in black: on the Pareto front."""
+
+
+def text(points, factors, context, options=""):
+    judged = [p for p in points if "error" in p]
+    lines = [INTRO.format(options=options, **context), "", "## What to use", "", *advice(judged), ""]
+    lines += ["## The ladder", ""]
+    lines += [f"- **{r.name}**: {r.meaning}" for r in LADDER if any(p["rung"] == r.name for p in points)]
+    for scene, title in SCENES.items():
+        rows = [p for p in points if p["case"]["scene"] == scene]
+        if rows:
+            lines += ["", f"### {title[0].upper()}{title[1:]}", "", *ladder_table(rows)]
+    if factors:
+        lines += ["", "## One factor at a time", "", "About the default (M3) on the coarse head, CSF loss.", ""]
+        lines += factor_table(factors)
+    lines += ["", "## References", "", *reference_table(points, context)]
+    return "\n".join(lines) + "\n"
+
+
+def advice(rows):
+    lines = ["The cheapest whose largest error is below the bound, of either head; that of the two heads' geometries is",
+             "beside it, under References.", "",
+             "| | " + " | ".join(f"for {b:g} mm" for b in BOUNDS) + " | default (M3) |", "|---|" + "---|" * (len(BOUNDS) + 1)]
+    for scene, title in SCENES.items():
+        some = [r for r in rows if r["case"]["scene"] == scene]
+        if not some:
+            continue
+        cells = []
+        for bound in BOUNDS:
+            row = cheapest(some, bound)
+            cells.append(f"{row['rung']}, {row['case']['head']} head: {cost(row)}, {row['error']:.3f} mm" if row
+                         else f"none; closest {min(some, key=lambda r: r['error'])['error']:.3f} mm")
+        own = [f"{r['case']['head']}: {cost(r)}, {r['error']:.3f} mm" for r in some if r["rung"] == "M3"]
+        lines.append(f"| {title} | " + " | ".join(cells) + " | " + "; ".join(own) + " |")
+    return lines
+
+
+def cost(row):
+    return f"{row['yardsticks']:.3g} yardsticks ({row['cpu']:.2g} s)"
+
+
+def ladder_table(rows):
+    front = pareto([r for r in rows if "error" in r])
+    lines = ["| rung | head | yardsticks | CPU s | wall s | iterations | factors | largest error, mm | where "
+             "| off the exact solve, mm | on the front |", "|---|---|---|---|---|---|---|---|---|---|---|"]
+    for r in rows:
+        start = [r["rung"], r["case"]["head"], f"{r['yardsticks']:.3g}", f"{r['cpu']:.3g}", f"{r['wall']:.3g}",
+                 str(r["iterations"]), str(r["factors"])]
+        lines.append("| " + " | ".join([*start, *verdict(r), "yes" if r in front else ""]) + " |")
+    return lines
+
+
+def verdict(row):
+    """Error, where, and off the exact solve; or why there is none."""
+    if not row["converged"]:
+        return ["no balance", row["message"], ""]
+    off = f"{row['off_exact']:.3g}" if "off_exact" in row else ""
+    if "error" not in row:
+        return ["", row.get("why", ""), off]
+    return [f"{row['error']:.4f}", f"{row['probe']}, stage {row['stage']}", off]
+
+
+def factor_table(factors):
+    lines = ["| factor | value | yardsticks | wall s | iterations | largest error, mm | where | off the exact solve, mm |",
+             "|---|---|---|---|---|---|---|---|"]
+    for name, rows in factors.items():
+        for r in rows:
+            lines.append(f"| {name} | {r['value']:g} | {r['yardsticks']:.3g} | {r['wall']:.3g} | {r['iterations']} | "
+                         + " | ".join(verdict(r)) + " |")
+    return lines
+
+
+def reference_table(points, context):
+    lines = ["*own*: quadratic tets on the head's own mesh; *refined*: on its refinement, each tet cut into eight.", "",
+             "| reference | nodes | CPU s | library |", "|---|---|---|---|"]
+    for name, r in context["references"].items():
+        lines.append(f"| {name} | {r['nodes']} | {r['cpu_seconds']:.0f} | {r['library']} |")
+    lines += ["", *context["remarks"]]
+    return lines

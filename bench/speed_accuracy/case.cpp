@@ -59,12 +59,14 @@ Outcome lose_fluid(const Head& given, const Case& wanted, const Points& points) 
   const Head& head = fine ? *fine : given;
   const Options options = options_of(wanted);
   Outcome outcome;
-  const Clock clock;
+  const Clock setup;
   SceneIds ids;
   Scene scene = make_scene(head, options, ids);
   if (fine) let_touch(scene, ids.skull);
   const StepperOptions solver = stepper_options(options, scene.mesh);
   Stepper stepper(std::move(scene), solver);
+  outcome.setup_cpu = setup.cpu();
+  const Clock clock;
   const auto keep = [&](const char* stage, const SolveReport& report, const Points& before) {
     outcome.stages.push_back({stage, report, {}, {}});
     outcome.stages.back().shift = rows_of(stepper.displacement_at(points).values - before);
@@ -93,8 +95,10 @@ Outcome operate(const Head& head, const Case& wanted, const Points& points) {
                 "refinements and load_steps, or ask for the scene csf_loss");
   }
   Outcome outcome;
-  const Clock clock;
+  const Clock setup;
   Procedure procedure(head, options_of(wanted));
+  outcome.setup_cpu = setup.cpu();
+  const Clock clock;
   Points before = Points::Zero(points.rows(), 3);
   for (const Stage& stage : procedure.plan()) {
     const StageResult result = procedure.run(stage);

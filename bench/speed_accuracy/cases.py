@@ -30,20 +30,20 @@ LADDER = [
     rung("M4 StVK", "M4", "Saint-Venant-Kirchhoff", law="st_venant_kirchhoff"),
     rung("M4 NH", "M4", "stable neo-Hookean", law="stable_neo_hookean"),
     rung("M5", "M5", "co-rotational, volume at nodes", element="nodal"),
-    rung("M5 0.1", "M5", "the same, solved to 0.1 mm", element="nodal", accuracy=0.1),
+    rung("M5 0.1", "M5", "the same as M5, solved to 0.1 mm", element="nodal", accuracy=0.1),
     rung("M6", "M6", "co-rotational, quadratic tets", element="quadratic"),
-    rung("M6 0.1", "M6", "the same, solved to 0.1 mm", element="quadratic", accuracy=0.1),
+    rung("M6 0.1", "M6", "the same as M6, solved to 0.1 mm", element="quadratic", accuracy=0.1),
 ]
 SHORT = ("M0", "M2", "M1 1", "M1 0.1", "M3", "M5 0.1")
 
-# Quadratic tets with devices on the medium head take longer than all the rest.
-LEFT_OUT = {("medium", "procedure", "M6"), ("medium", "procedure", "M6 0.1")}
+# Quadratic tets on the medium head are its reference: nothing finer is there to judge them by.
+LEFT_OUT = {("medium", "M6"), ("medium", "M6 0.1")}
 
 
 def ladder(heads, scenes, names=None):
     """(rung, case) of each point."""
     return [(r, r.case(head, scene)) for scene in scenes for head in heads for r in LADDER
-            if (names is None or r.name in names) and (head, scene, r.name) not in LEFT_OUT]
+            if (names is None or r.name in names) and (head, r.name) not in LEFT_OUT]
 
 
 # name -> (value, case) about the default on the coarse head; what solves it exactly is shared with the ladder

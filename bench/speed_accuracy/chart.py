@@ -3,6 +3,9 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib import patheffects
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from cases import HEADS, SCENES
 from front import pareto
@@ -13,16 +16,20 @@ matplotlib.rcParams["svg.fonttype"] = "none"             # text that can be sear
 # Okabe and Ito's colours, told apart by the colour-blind.
 COLOURS = {"M0": "#999999", "M1": "#0072B2", "M2": "#D55E00", "M3": "#000000", "M4": "#CC79A7", "M5": "#009E73",
            "M6": "#E69F00"}
+FAMILIES = {"M0": "linear law", "M2": "one linearisation", "M1": "to an accuracy (mm)", "M3": "co-rotational, exact",
+            "M4": "other laws", "M5": "volume at nodes", "M6": "quadratic tets"}
 MARKERS = {"coarse": "o", "medium": "s"}
 
 
 def draw(points, factors, paths):
-    figure = plt.figure(figsize=(12, 9.5))
-    grid = figure.add_gridspec(2, 12, height_ratios=(2.1, 1), hspace=0.32, wspace=5)
-    top = [figure.add_subplot(grid[0, :6]), figure.add_subplot(grid[0, 6:])]
-    for axis, (scene, title) in zip(top, SCENES.items()):
+    scenes = {s: t for s, t in SCENES.items() if any(p["case"]["scene"] == s for p in points)}
+    figure = plt.figure(figsize=(12 if len(scenes) > 1 else 7, 9.5 if factors else 6))
+    grid = figure.add_gridspec(2 if factors else 1, 12, height_ratios=(2.1, 1) if factors else None, hspace=0.4, wspace=7)
+    for i, (scene, title) in enumerate(scenes.items()):
+        width = 12 // len(scenes)
+        axis = figure.add_subplot(grid[0, i * width:(i + 1) * width])
         ladder(axis, [p for p in points if p["case"]["scene"] == scene], title)
-    legend(top[0])
+    legend(figure, points, 0.93 if factors else 0.97)
     for place, (name, rows) in zip(range(0, 12, 3), shown(factors).items()):
         factor(figure.add_subplot(grid[1, place:place + 3]), name, rows)
     for path in paths:
@@ -39,14 +46,11 @@ def shown(factors):
 def ladder(axis, rows, title):
     axis.set_xscale("log")
     axis.set_yscale("log")
-    axis.set_title(title, fontsize=11)
+    axis.set_title(title, fontsize=11, pad=12)
     axis.set_xlabel("CPU time, yardsticks")
     axis.set_ylabel("largest error over all points and stages, mm")
     axis.grid(True, which="major", color="0.9")
     axis.set_axisbelow(True)
-    if not rows:
-        axis.text(0.5, 0.5, "not measured in this tier", transform=axis.transAxes, ha="center", color="0.5")
-        return
     front = pareto(rows)
     axis.step([r["yardsticks"] for r in front], [r["error"] for r in front], where="post", color="0.55",
               linewidth=1.4, zorder=1)
@@ -58,12 +62,21 @@ def ladder(axis, rows, title):
     for bound in (1.0, 0.5, 0.1):
         if axis.get_ylim()[0] < bound < axis.get_ylim()[1]:
             axis.axhline(bound, color="0.75", linestyle=":", linewidth=1, zorder=0)
+    for scale in (axis.xaxis, axis.yaxis):
+        plain(scale)
     label(axis, rows)
     seconds = sorted(r["yardstick"] for r in rows)[len(rows) // 2]
     upper = axis.secondary_xaxis("top", functions=(lambda x: x * seconds, lambda s: s / seconds))
+    plain(upper.xaxis)
     upper.set_xlabel("seconds of CPU, one thread", fontsize=8)
     upper.tick_params(labelsize=7)
-    axis.title.set_position((0.5, 1.1))
+
+
+def plain(scale):
+    """Numbers as they are said, at 1, 2 and 5 of each decade."""
+    scale.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    scale.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    scale.set_minor_formatter(NullFormatter())
 
 
 def label(axis, rows):
@@ -77,7 +90,7 @@ def label(axis, rows):
              for x, y in at.values()]
     frame = axis.get_window_extent(renderer)
     offsets = [(dx * reach, dy * reach) for reach in (1, 1.7, 2.6, 3.6, 4.8)
-               for dx, dy in ((7, 0), (0, 8), (0, -8), (-7, 0), (6, 6), (6, -6), (-6, 6), (-6, -6))]
+               for dx, dy in ((0, 8), (0, -8), (6, 6), (6, -6), (-6, 6), (-6, -6), (7, 0), (-7, 0))]
     for row in sorted(rows, key=lambda r: -r["error"]):
         best = None
         for dx, dy in offsets:
@@ -98,16 +111,20 @@ def label(axis, rows):
         axis.annotate(row["rung"], (row["yardsticks"], row["error"]), xytext=(dx, dy), textcoords="offset points",
                       fontsize=8, color="0.15", ha="left" if dx > 0 else "right" if dx < 0 else "center",
                       va="bottom" if dy > 0 else "top" if dy < 0 else "center", zorder=4,
+                      path_effects=[patheffects.withStroke(linewidth=2, foreground="white")],
                       arrowprops={"arrowstyle": "-", "color": "0.6", "linewidth": 0.6} if far else None)
         taken.append(box)
 
 
-def legend(axis):
-    names = {"coarse": "coarse head", "medium": "medium head"}
-    for head in HEADS:
-        axis.plot([], [], MARKERS[head], color="0.5", label=names[head], linestyle="none", markersize=7)
-    axis.plot([], [], color="0.55", linewidth=1.4, label="Pareto front")
-    axis.legend(fontsize=8, loc="best", framealpha=0.9)
+def legend(figure, points, height):
+    heads = [Line2D([], [], marker=MARKERS[h], color="0.5", linestyle="none", markersize=7, label=f"{h} head")
+             for h in HEADS if any(p["case"]["head"] == h for p in points)]
+    families = [Line2D([], [], marker="D", color=COLOURS[f], linestyle="none", markersize=6, label=f"{f}: {what}")
+                for f, what in FAMILIES.items() if any(p["family"] == f for p in points)]
+    front = [Line2D([], [], color="0.55", linewidth=1.4, marker="o", markerfacecolor="white", markeredgecolor="black",
+                    label="Pareto front")]
+    figure.legend(handles=[*heads, *front, *families], fontsize=8, loc="lower center", ncol=5,
+                  bbox_to_anchor=(0.5, height), frameon=False)
 
 
 def factor(axis, name, rows):

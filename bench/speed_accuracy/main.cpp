@@ -53,8 +53,8 @@ json to_json(const Outcome& outcome, const std::vector<Probe>& probes) {
   for (const bench::Solved& solved : outcome.stages) stages.push_back(to_json(solved, probes));
   for (const Probe& p : probes) where.push_back({{"name", p.name}, {"kind", p.kind}, {"point", to_json(p.point)}});
   return {{"library", BRAINSHIFT_VERSION}, {"air_mL", bench::air}, {"nodes", outcome.nodes}, {"tets", outcome.tets},
-          {"probes", where}, {"stages", stages}, {"cpu_seconds", outcome.cpu},
-          {"wall_seconds", outcome.wall}};
+          {"probes", where}, {"stages", stages}, {"setup_cpu_seconds", outcome.setup_cpu},
+          {"cpu_seconds", outcome.cpu}, {"wall_seconds", outcome.wall}};
 }
 
 }  // namespace

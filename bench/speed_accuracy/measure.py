@@ -145,7 +145,7 @@ def is_own_reference(case, reference):
 def judge(case, runner, references):
     """One row of the table: what a case costs and how far it is off."""
     run = runner.run(case)
-    row = {"case": case, "nodes": run["nodes"], "cpu": run["cpu_seconds"], "wall": run["wall_seconds"],
+    row = {"case": case, "nodes": run["nodes"], "setup": run["setup_cpu_seconds"], "cpu": run["cpu_seconds"], "wall": run["wall_seconds"],
            "yardsticks": run["cpu_seconds"] / run["yardstick_cpu_seconds"],
            "yardstick": run["yardstick_cpu_seconds"], "converged": converged(run),
            "iterations": sum(s["iterations"] for s in run["stages"]),

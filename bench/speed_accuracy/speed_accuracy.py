@@ -43,6 +43,8 @@ def measure(options, runner, references):
     heads, scenes = (["coarse"], ["csf_loss"]) if options.coarse else (cases.HEADS, list(cases.SCENES))
     ladder = cases.ladder(heads, scenes, cases.SHORT if options.coarse else None)
     wanted = {} if options.coarse else cases.FACTORS
+    for case in [*(c for _, c in ladder), *(c for pairs in wanted.values() for _, c in pairs)]:
+        references.of(case)   # one that does not fit is refused before anything is run
     points = []
     for i, (rung, case) in enumerate(ladder):
         row = {"rung": rung.name, "family": rung.family, **judge(case, runner, references)}

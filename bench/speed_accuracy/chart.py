@@ -3,7 +3,6 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-from matplotlib import patheffects
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
@@ -111,7 +110,7 @@ def label(axis, rows):
         axis.annotate(row["rung"], (row["yardsticks"], row["error"]), xytext=(dx, dy), textcoords="offset points",
                       fontsize=8, color="0.15", ha="left" if dx > 0 else "right" if dx < 0 else "center",
                       va="bottom" if dy > 0 else "top" if dy < 0 else "center", zorder=4,
-                      path_effects=[patheffects.withStroke(linewidth=2, foreground="white")],
+                      bbox={"boxstyle": "square,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.7},
                       arrowprops={"arrowstyle": "-", "color": "0.6", "linewidth": 0.6} if far else None)
         taken.append(box)
 

@@ -40,13 +40,19 @@ def text(points, factors, context, options=""):
         lines += ["", "## One factor at a time", "", "About the default (M3) on the coarse head, CSF loss.", ""]
         lines += factor_table(factors)
     lines += ["", "## References", "", *reference_table(points, context)]
+    if context["missing"]:
+        lines += ["", "## Not measured", "", *(f"- {name}" for name in context["missing"])]
     return "\n".join(lines) + "\n"
 
 
+def header(*columns):
+    return ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
+
+
 def advice(rows):
-    lines = ["The cheapest whose largest error is below the bound, of either head; that of the two heads' geometries is",
-             "beside it, under References.", "",
-             "| | " + " | ".join(f"for {b:g} mm" for b in BOUNDS) + " | default (M3) |", "|---|" + "---|" * (len(BOUNDS) + 1)]
+    lines = ["The cheapest rung whose largest error is below the bound, on either head. How far the heads themselves are",
+             "apart is not in it: see the references.", ""]
+    lines += header("", *(f"for {b:g} mm" for b in BOUNDS), "default (M3)")
     for scene, title in SCENES.items():
         some = [r for r in rows if r["case"]["scene"] == scene]
         if not some:
@@ -67,8 +73,8 @@ def cost(row):
 
 def ladder_table(rows):
     front = pareto([r for r in rows if "error" in r])
-    lines = ["| rung | head | yardsticks | CPU s | wall s | set-up, CPU s | iterations | factors | largest error, mm | where "
-             "| off the exact solve, mm | on the front |", "|---|---|---|---|---|---|---|---|---|---|---|---|"]
+    lines = header("rung", "head", "yardsticks", "CPU s", "wall s", "set-up, CPU s", "iterations", "factors",
+                   "largest error, mm", "where", "reference", "off the exact solve, mm", "on the front")
     for r in rows:
         start = [r["rung"], r["case"]["head"], f"{r['yardsticks']:.3g}", f"{r['cpu']:.3g}", f"{r['wall']:.3g}",
                  f"{r['setup']:.2g}", str(r["iterations"]), str(r["factors"])]
@@ -77,18 +83,20 @@ def ladder_table(rows):
 
 
 def verdict(row):
-    """Error, where, and off the exact solve; or why there is none."""
+    """Error, where, its reference, and off the exact solve; or why there is none."""
     if not row["converged"]:
-        return ["no balance", row["message"], ""]
+        return ["no balance", row["message"], "", ""]
     off = f"{row['off_exact']:.3g}" if "off_exact" in row else ""
     if "error" not in row:
-        return ["", row.get("why", ""), off]
-    return [f"{row['error']:.4f}", f"{row['probe']}, stage {row['stage']}", off]
+        return ["", row["why"], "", off]
+    law, mesh = row["reference"].split("-")[2], row["reference"].rsplit("-", 1)[1]
+    own = "" if law == "corotational" else f", {law}"
+    return [f"{row['error']:.4f}", f"{row['probe']}, stage {row['stage']}", mesh + own, off]
 
 
 def factor_table(factors):
-    lines = ["| factor | value | yardsticks | wall s | iterations | largest error, mm | where | off the exact solve, mm |",
-             "|---|---|---|---|---|---|---|---|"]
+    lines = header("factor", "value", "yardsticks", "wall s", "iterations", "largest error, mm", "where", "reference",
+                   "off the exact solve, mm")
     for name, rows in factors.items():
         for r in rows:
             lines.append(f"| {name} | {r['value']:g} | {r['yardsticks']:.3g} | {r['wall']:.3g} | {r['iterations']} | "
@@ -97,8 +105,8 @@ def factor_table(factors):
 
 
 def reference_table(points, context):
-    lines = ["*own*: quadratic tets on the head's own mesh; *refined*: on its refinement, each tet cut into eight.", "",
-             "| reference | nodes | CPU s | library |", "|---|---|---|---|"]
+    lines = ["*own*: quadratic tets on the head's own mesh; *refined*: on its refinement, each tet cut into eight.", ""]
+    lines += header("reference", "nodes", "CPU s", "library")
     for name, r in context["references"].items():
         lines.append(f"| {name} | {r['nodes']} | {r['cpu_seconds']:.0f} | {r['library']} |")
     lines += ["", *context["remarks"]]

@@ -22,6 +22,7 @@ def parse():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--coarse", action="store_true")
     parser.add_argument("--write-docs", action="store_true")
+    parser.add_argument("--draw-only", action="store_true")
     parser.add_argument("--program", type=Path, default=ROOT / "build/release/bench/bench_speed_accuracy")
     parser.add_argument("--heads", type=Path, default=ROOT / "examples/head/data")
     parser.add_argument("--references", type=Path, default=ROOT / "bench/speed_accuracy/references")
@@ -38,23 +39,30 @@ def processor():
 
 
 def measure(options, runner, references):
-    """Points of the ladder and of the factors, one after the other: they are timed."""
+    """Points of the ladder and of the factors, one after the other: they are timed. And what is not measured yet."""
     begin = time.monotonic()
     heads, scenes = (["coarse"], ["csf_loss"]) if options.coarse else (cases.HEADS, list(cases.SCENES))
     ladder = cases.ladder(heads, scenes, cases.SHORT if options.coarse else None)
     wanted = {} if options.coarse else cases.FACTORS
     for case in [*(c for _, c in ladder), *(c for pairs in wanted.values() for _, c in pairs)]:
         references.of(case)   # one that does not fit is refused before anything is run
-    points = []
+    points, missing = [], []
+
+    def judged(case, name):
+        if options.draw_only and not runner.has(case):
+            missing.append(f"{case['head']} head, {cases.SCENES[case['scene']]}: {name}")
+            return []
+        return [judge(case, runner, references, not options.draw_only)]
+
     for i, (rung, case) in enumerate(ladder):
-        row = {"rung": rung.name, "family": rung.family, **judge(case, runner, references)}
-        points.append(row)
-        print(f"{time.monotonic() - begin:5.0f} s of {BUDGET}: {i + 1} of {len(ladder)}, {case['head']}, {case['scene']}, "
-              f"{rung.name}: {row['yardsticks']:.3g} yardsticks, {row.get('error', float('nan')):.4f} mm", flush=True)
-    factors = {name: [{"value": value, **judge(case, runner, references)} for value, case in pairs]
+        for found in judged(case, rung.name):
+            points.append({"rung": rung.name, "family": rung.family, **found})
+            print(f"{time.monotonic() - begin:5.0f} s of {BUDGET}: {i + 1} of {len(ladder)}, {case['head']}, {case['scene']}, "
+                  f"{rung.name}: {found['yardsticks']:.3g} yardsticks, {found.get('error', float('nan')):.4f} mm", flush=True)
+    factors = {name: [{"value": value, **found} for value, case in pairs for found in judged(case, f"{name} {value:g}")]
                for name, pairs in wanted.items()}
     print(f"{time.monotonic() - begin:.0f} s in all")
-    return points, factors
+    return points, {name: rows for name, rows in factors.items() if rows}, missing
 
 
 def context_of(points, factors, runner, references):
@@ -108,13 +116,14 @@ def main():
     options = parse()
     runner = Runner(options.program, options.heads, options.out / "runs")
     references = References(options.references, options.heads)
-    points, factors = measure(options, runner, references)
+    points, factors, missing = measure(options, runner, references)
     folder = ROOT / "docs/charts" if options.write_docs else options.out
     folder.mkdir(parents=True, exist_ok=True)
     chart.draw([p for p in points if "error" in p], factors, [folder / "speed_accuracy.svg", folder / "speed_accuracy.png"])
     write_table(options.out / "points.csv", points)
     (options.out / "points.json").write_text(json.dumps({"points": points, "factors": factors}, indent=1) + "\n")
     context = context_of(points, factors, runner, references)
+    context["missing"] = missing
     (folder / "speed_accuracy.md").write_text(page.text(points, factors, context,
                                                         " --coarse" if options.coarse else " --write-docs"))
     print(folder / "speed_accuracy.md")

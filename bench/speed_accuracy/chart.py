@@ -4,9 +4,9 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
-from cases import HEADS, SCENES
+from cases import HEADS, LADDER, SCENES
 from front import pareto
 
 matplotlib.rcParams["svg.hashsalt"] = "speed_accuracy"   # the same names in the file again
@@ -22,15 +22,16 @@ MARKERS = {"coarse": "o", "medium": "s"}
 
 def draw(points, factors, paths):
     scenes = {s: t for s, t in SCENES.items() if any(p["case"]["scene"] == s for p in points)}
-    figure = plt.figure(figsize=(12 if len(scenes) > 1 else 7, 9.5 if factors else 6))
-    grid = figure.add_gridspec(2 if factors else 1, 12, height_ratios=(2.1, 1) if factors else None, hspace=0.4, wspace=7)
+    figure = plt.figure(figsize=(13 if factors or len(scenes) > 1 else 7, 10 if factors else 6))
+    rows = figure.add_gridspec(2 if factors else 1, 1, height_ratios=(2.4, 1) if factors else None, hspace=0.3)
+    ladders = rows[0].subgridspec(1, len(scenes), wspace=0.2)
     for i, (scene, title) in enumerate(scenes.items()):
-        width = 12 // len(scenes)
-        axis = figure.add_subplot(grid[0, i * width:(i + 1) * width])
-        ladder(axis, [p for p in points if p["case"]["scene"] == scene], title)
-    legend(figure, points, 0.93 if factors else 0.97)
-    for place, (name, rows) in zip(range(0, 12, 3), shown(factors).items()):
-        factor(figure.add_subplot(grid[1, place:place + 3]), name, rows)
+        ladder(figure.add_subplot(ladders[i]), [p for p in points if p["case"]["scene"] == scene], title)
+    legend(figure, points)
+    for i, (name, some) in enumerate(shown(factors).items()):
+        if i == 0:
+            panels = rows[1].subgridspec(1, len(shown(factors)), wspace=0.75)
+        factor(figure.add_subplot(panels[i]), name, some)
     for path in paths:
         metadata = {"Date": None} if path.suffix == ".svg" else {"Software": None}
         figure.savefig(path, dpi=110, metadata=metadata, bbox_inches="tight")
@@ -78,44 +79,64 @@ def plain(scale):
     scale.set_minor_formatter(NullFormatter())
 
 
+def groups(rows, at, near):
+    """Rows of one family on one head whose points nearly coincide share a label."""
+    found = []
+    for row in sorted(rows, key=lambda r: r["yardsticks"]):
+        for group in found:
+            if (group[0]["family"], group[0]["case"]["head"]) == (row["family"], row["case"]["head"]) and \
+                    max(abs(at[id(group[-1])] - at[id(row)])) < near:
+                group.append(row)
+                break
+        else:
+            found.append([row])
+    return found
+
+
+def words(group):
+    """M1 1, 0.5 for M1 0.5 and M1 1."""
+    family = group[0]["family"]
+    there = {r["rung"] for r in group}
+    kinds = [r.name[len(family):].strip() for r in LADDER if r.name in there]
+    return f"{family} {', '.join(k or 'exact' for k in kinds)}" if len(group) > 1 else group[0]["rung"]
+
+
 def label(axis, rows):
-    """Names beside their points; each where the fewest others stand, the crowded ones last."""
-    figure = axis.figure
-    figure.canvas.draw()
-    renderer = figure.canvas.get_renderer()
+    """Names beside their points: each where it covers no other name or point."""
+    axis.figure.canvas.draw()
+    renderer = axis.figure.canvas.get_renderer()
     at = {id(r): axis.transData.transform((r["yardsticks"], r["error"])) for r in rows}
-    size = figure.dpi / 72.0
-    taken = [matplotlib.transforms.Bbox.from_bounds(x - 4 * size, y - 4 * size, 8 * size, 8 * size)
+    size = axis.figure.dpi / 72.0
+    taken = [matplotlib.transforms.Bbox.from_bounds(x - 5 * size, y - 5 * size, 10 * size, 10 * size)
              for x, y in at.values()]
     frame = axis.get_window_extent(renderer)
-    offsets = [(dx * reach, dy * reach) for reach in (1, 1.7, 2.6, 3.6, 4.8)
+    offsets = [(dx * reach, dy * reach) for reach in (1, 2, 3.2, 4.6, 6)
                for dx, dy in ((0, 8), (0, -8), (6, 6), (6, -6), (-6, 6), (-6, -6), (7, 0), (-7, 0))]
-    for row in sorted(rows, key=lambda r: -r["error"]):
-        best = None
-        for dx, dy in offsets:
-            text = axis.annotate(row["rung"], (row["yardsticks"], row["error"]), xytext=(dx, dy),
-                                 textcoords="offset points", fontsize=8, color="0.15",
+    for group in groups(rows, at, 40 * size):
+        middle = group[len(group) // 2]
+
+        def note(offset, arrow=None):
+            dx, dy = offset
+            return axis.annotate(words(group), (middle["yardsticks"], middle["error"]), xytext=offset,
+                                 textcoords="offset points", fontsize=8, color="0.15", zorder=4,
                                  ha="left" if dx > 0 else "right" if dx < 0 else "center",
-                                 va="bottom" if dy > 0 else "top" if dy < 0 else "center", zorder=4)
+                                 va="bottom" if dy > 0 else "top" if dy < 0 else "center", arrowprops=arrow,
+                                 bbox={"boxstyle": "square,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.7})
+
+        def clashes(offset):
+            text = note(offset)
             box = text.get_window_extent(renderer)
-            clashes = sum(box.overlaps(t) for t in taken) + 5 * (not frame.contains(*box.min)) \
-                + 5 * (not frame.contains(*box.max))
             text.remove()
-            if best is None or clashes < best[0]:
-                best = (clashes, dx, dy, box)
-            if clashes == 0:
-                break
-        _, dx, dy, box = best
-        far = abs(dx) + abs(dy) > 14
-        axis.annotate(row["rung"], (row["yardsticks"], row["error"]), xytext=(dx, dy), textcoords="offset points",
-                      fontsize=8, color="0.15", ha="left" if dx > 0 else "right" if dx < 0 else "center",
-                      va="bottom" if dy > 0 else "top" if dy < 0 else "center", zorder=4,
-                      bbox={"boxstyle": "square,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.7},
-                      arrowprops={"arrowstyle": "-", "color": "0.6", "linewidth": 0.6} if far else None)
-        taken.append(box)
+            outside = not (frame.contains(*box.min) and frame.contains(*box.max))
+            return sum(box.overlaps(t) for t in taken) + 5 * outside
+
+        best = min(offsets, key=clashes)   # the nearest of equals
+        far = max(map(abs, best)) > 14
+        text = note(best, {"arrowstyle": "-", "color": "0.6", "linewidth": 0.6} if far else None)
+        taken.append(text.get_window_extent(renderer))
 
 
-def legend(figure, points, height):
+def legend(figure, points):
     heads = [Line2D([], [], marker=MARKERS[h], color="0.5", linestyle="none", markersize=7, label=f"{h} head")
              for h in HEADS if any(p["case"]["head"] == h for p in points)]
     families = [Line2D([], [], marker="D", color=COLOURS[f], linestyle="none", markersize=6, label=f"{f}: {what}")
@@ -123,7 +144,7 @@ def legend(figure, points, height):
     front = [Line2D([], [], color="0.55", linewidth=1.4, marker="o", markerfacecolor="white", markeredgecolor="black",
                     label="Pareto front")]
     figure.legend(handles=[*heads, *front, *families], fontsize=8, loc="lower center", ncol=5,
-                  bbox_to_anchor=(0.5, height), frameon=False)
+                  bbox_to_anchor=(0.5, 0.97), frameon=False)
 
 
 def factor(axis, name, rows):
@@ -136,10 +157,12 @@ def factor(axis, name, rows):
     time = "wall" if name == "threads" else "yardsticks"
     scale = rows[0]["yardstick"] if time == "wall" and rows else 1.0
     axis.plot(values, [r.get("error", float("nan")) for r in rows], "o-", color=COLOURS["M1"], markersize=5)
-    axis.set_ylim(bottom=0)
+    axis.set_ylim(0, 1.12 * axis.get_ylim()[1])
     axis.set_ylabel("error, mm", color=COLOURS["M1"], fontsize=8)
     other = axis.twinx()
     other.plot(values, [r[time] / scale for r in rows], "s--", color=COLOURS["M2"], markersize=5)
-    other.set_ylim(bottom=0)
+    other.set_ylim(0, 1.3 * other.get_ylim()[1])
+    for y in (axis.yaxis, other.yaxis):
+        y.set_major_locator(MaxNLocator(4))
     other.tick_params(labelsize=7)
     other.set_ylabel("wall time, yardsticks" if time == "wall" else "CPU, yardsticks", color=COLOURS["M2"], fontsize=8)

@@ -84,7 +84,10 @@ class TheChart(unittest.TestCase):
     def test_the_files_hold_the_chart(self):
         tree = ElementTree.parse(OUT / "speed_accuracy.svg")
         words = {"".join(e.itertext()).strip() for e in tree.iter("{http://www.w3.org/2000/svg}text")}
-        self.assertLessEqual({p["rung"] for p in self.points}, words)
+        for p in self.points:   # those that nearly coincide share a label: M1 1, 0.1
+            kind = p["rung"][len(p["family"]):].strip()
+            self.assertTrue(any(w.startswith(p["family"]) and kind in w[len(p["family"]):].strip().split(", ")
+                                for w in words), p["rung"])
         import matplotlib.image
         pixels = matplotlib.image.imread(OUT / "speed_accuracy.png")
         self.assertGreater(pixels.shape[0], 400)

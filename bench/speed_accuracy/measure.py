@@ -29,7 +29,9 @@ def hash_of(inputs):
 
 
 class Runner:
-    def __init__(self, program, heads, folder):
+    def __init__(self, program, heads, folder, limit=None):
+        """limit: s of wall after which a case is given up."""
+        self.limit = limit
         self.program, self.heads, self.folder = Path(program), Path(heads), Path(folder)
         if not self.program.is_file():
             raise Refused(f"{self.program} is not there: build the target bench_speed_accuracy")
@@ -45,18 +47,24 @@ class Runner:
     def run(self, case):
         kept = self.path(case)
         if not kept.is_file():
-            done = subprocess.run([self.program, self.heads, json.dumps(case)], capture_output=True, text=True,
-                                  check=False)
-            if done.returncode != 0:
-                raise Refused(f"{name_of(case)}: {done.stderr.strip()}")
             part = kept.with_suffix(".part")
-            part.write_text(done.stdout)
+            part.write_text(self.solve(case))
             part.rename(kept)
         return json.loads(kept.read_text())
 
+    def solve(self, case):
+        try:
+            done = subprocess.run([self.program, self.heads, json.dumps(case)], capture_output=True, text=True,
+                                  check=False, timeout=self.limit)
+        except subprocess.TimeoutExpired:
+            return json.dumps({"given_up_after": self.limit})
+        if done.returncode != 0:
+            raise Refused(f"{name_of(case)}: {done.stderr.strip()}")
+        return done.stdout
+
 
 def converged(run):
-    return all(s["status"] == "converged" for s in run["stages"])
+    return "given_up_after" not in run and all(s["status"] == "converged" for s in run["stages"])
 
 
 def motions(run):
@@ -150,6 +158,8 @@ def is_own_reference(case, reference):
 def judge(case, runner, references, may_run=True):
     """One row of the table: what a case costs and how far it is off."""
     run = runner.run(case)
+    if "given_up_after" in run:
+        return {"case": case, "converged": False, "message": f"given up after {run['given_up_after']:g} s of wall"}
     row = {"case": case, "nodes": run["nodes"], "setup": run["setup_cpu_seconds"], "cpu": run["cpu_seconds"], "wall": run["wall_seconds"],
            "yardsticks": run["cpu_seconds"] / run["yardstick_cpu_seconds"],
            "yardstick": run["yardstick_cpu_seconds"], "converged": converged(run),

@@ -71,14 +71,20 @@ def cost(row):
     return f"{row['yardsticks']:.3g} yardsticks ({row['cpu']:.2g} s)"
 
 
+def brief(row):
+    if not row["converged"]:
+        return row["message"]
+    return f"{row['yardsticks']:.3g} yardsticks, " + (f"{row['error']:.4f} mm" if "error" in row else row["why"])
+
+
 def ladder_table(rows):
     front = pareto([r for r in rows if "error" in r])
     lines = header("rung", "head", "yardsticks", "CPU s", "wall s", "set-up, CPU s", "iterations", "factors",
                    "largest error, mm", "where", "reference", "off the exact solve, mm", "on the front")
     for r in rows:
-        start = [r["rung"], r["case"]["head"], f"{r['yardsticks']:.3g}", f"{r['cpu']:.3g}", f"{r['wall']:.3g}",
-                 f"{r['setup']:.2g}", str(r["iterations"]), str(r["factors"])]
-        lines.append("| " + " | ".join([*start, *verdict(r), "yes" if r in front else ""]) + " |")
+        work = [f"{r['yardsticks']:.3g}", f"{r['cpu']:.3g}", f"{r['wall']:.3g}", f"{r['setup']:.2g}", str(r["iterations"]),
+                str(r["factors"])] if "cpu" in r else [""] * 6
+        lines.append("| " + " | ".join([r["rung"], r["case"]["head"], *work, *verdict(r), "yes" if r in front else ""]) + " |")
     return lines
 
 
@@ -99,8 +105,8 @@ def factor_table(factors):
                    "off the exact solve, mm")
     for name, rows in factors.items():
         for r in rows:
-            lines.append(f"| {name} | {r['value']:g} | {r['yardsticks']:.3g} | {r['wall']:.3g} | {r['iterations']} | "
-                         + " | ".join(verdict(r)) + " |")
+            work = [f"{r['yardsticks']:.3g}", f"{r['wall']:.3g}", str(r["iterations"])] if "cpu" in r else [""] * 3
+            lines.append("| " + " | ".join([name, f"{r['value']:g}", *work, *verdict(r)]) + " |")
     return lines
 
 

@@ -166,7 +166,7 @@ def judge(case, runner, references, may_run=True):
            "iterations": sum(s["iterations"] for s in run["stages"]),
            "factors": sum(s["factorisations"] for s in run["stages"])}
     if not row["converged"]:
-        row["message"] = next(s["message"] for s in run["stages"] if s["status"] != "converged")
+        row["message"] = next(f"stage {s['stage']}: {s['message']}" for s in run["stages"] if s["status"] != "converged")
         return row
     wanted, reference = references.of(case)
     if wanted is None:

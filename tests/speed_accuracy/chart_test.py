@@ -94,12 +94,38 @@ class TheChart(unittest.TestCase):
         self.assertGreater(pixels.shape[1], 400)
         self.assertGreater(float(pixels[..., :3].std()), 0.02)
 
+    def test_drawn_again_it_is_the_same(self):
+        names = ("speed_accuracy.svg", "speed_accuracy.png", "speed_accuracy.md")
+        before = [(OUT / name).read_bytes() for name in names]
+        self.assertEqual(draw("--draw-only").returncode, 0)
+        for name, bytes_before in zip(names, before):
+            self.assertEqual((OUT / name).read_bytes(), bytes_before, name)
+
+    def test_what_was_not_measured_is_said(self):
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copytree(OUT, folder, dirs_exist_ok=True)
+            for path in Path(folder, "runs").glob("*.json"):
+                if self.is_of(path, "M2"):
+                    path.unlink()
+            done = draw("--draw-only", out=Path(folder))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            page = Path(folder, "speed_accuracy.md").read_text()
+        self.assertIn("- coarse head, CSF loss (stages 0 and 1): M2", page)
+        self.assertNotIn("| M2 | coarse |", page)
+
+    def is_of(self, path, rung):
+        (point,) = [p for p in self.points if p["rung"] == rung]
+        return json.loads(path.read_text())["cpu_seconds"] == point["cpu"]
+
     def test_the_page_recommends_what_the_table_holds(self):
         page = (OUT / "speed_accuracy.md").read_text()
         for p in self.points:
             self.assertIn(f"| {p['rung']} | coarse | {p['yardsticks']:.3g} |", page)
         best = front.cheapest(self.points, 0.5)
         self.assertIn(f"{best['rung']}, coarse head: {best['yardsticks']:.3g} yardsticks", page)
+        deep = [{**p, "error": max(off[0] for kind, off in p["kinds"].items() if kind != "cortex")} for p in self.points]
+        best = front.cheapest(deep, 0.1)
+        self.assertIn(f"{best['rung']}, coarse head: {best['yardsticks']:.3g} yardsticks" if best else "none; closest", page)
         tight = min(p["error"] for p in self.points)
         self.assertIsNone(front.cheapest(self.points, tight))
 
@@ -135,6 +161,11 @@ class References(unittest.TestCase):
         self.assertIn("coarse-csf_loss-corotational-0.45-own", [cases.name_of(c) for c in there])
         for case in there:
             references.read(case)
+
+    def test_they_are_listed(self):
+        done = subprocess.run([sys.executable, "-B", BENCH / "make_references.py", "--program", PROGRAM, "--heads", HEADS,
+                               "--list"], capture_output=True, text=True, check=True)
+        self.assertEqual(done.stdout.split(), [cases.name_of(c) for c in cases.all_references()])
 
     def test_one_of_another_head_is_refused(self):
         heads = self.folder / "heads"

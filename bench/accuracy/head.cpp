@@ -43,19 +43,6 @@ Points landmark_points(const Head& head) {
   return points;
 }
 
-// Nodes in the middle of edges may stand in the skull by the curvature of a chord: they touch there.
-void let_touch(Scene& scene, ConstraintId skull) {
-  const ConstraintGroup group = scene.constraints.group(skull);
-  Eigen::VectorXd offsets = group.offsets;
-  for (std::size_t i = 0; i < group.nodes.size(); ++i) {
-    const Vec3 x = scene.mesh.nodes().row(group.nodes[i]).transpose();
-    double& offset = offsets[Eigen::Index(i)];
-    offset = std::min(offset, group.surface->distance(x));
-  }
-  scene.constraints.remove(skull);
-  scene.constraints.obstacle(group.name, group.nodes, *group.surface, group.side, offsets);
-}
-
 Result lose_fluid(const Head& head, const Points& points, const std::string& element,
                   int refinements, double air_mL, double poisson) {
   Options options;

@@ -94,4 +94,16 @@ Head refined(const Head& head) {
   return result;
 }
 
+void let_touch(Scene& scene, ConstraintId skull) {
+  const ConstraintGroup group = scene.constraints.group(skull);
+  Eigen::VectorXd offsets = group.offsets;
+  for (std::size_t i = 0; i < group.nodes.size(); ++i) {
+    const Vec3 x = scene.mesh.nodes().row(group.nodes[i]).transpose();
+    double& offset = offsets[Eigen::Index(i)];
+    offset = std::min(offset, group.surface->distance(x));
+  }
+  scene.constraints.remove(skull);
+  scene.constraints.obstacle(group.name, group.nodes, *group.surface, group.side, offsets);
+}
+
 }  // namespace dbs

@@ -8,36 +8,13 @@
 
 #include "beam/beam.hpp"
 #include "brainshift/mcp.hpp"
-#include "linear/spd_solver.hpp"
 #include "speed/heads.hpp"
-#include "stepper/equilibrium.hpp"
+#include "speed/rest.hpp"
 
 namespace {
 
 using namespace dbs;
-
-// A head at rest under the default options, its tangent, and a factor of it.
-struct Rest {
-  SceneIds ids;
-  Equilibrium balance;
-  Points u;
-  Forces forces;
-  std::vector<double> multipliers;
-  BlockMatrix tangent;
-  std::unique_ptr<SpdSolver> solver = make_spd_solver();
-
-  explicit Rest(const Head& head)
-      : balance(make_scene(head, Options{}, ids)),
-        u(Points::Zero(head.brain.node_count(), 3)),
-        forces(balance.forces(u)),
-        multipliers(balance.contacts().size(), 0.0),
-        tangent(balance.blocks().make_matrix()) {
-    balance.tangent(u, forces, multipliers, false, tangent);
-    solver->analyse(tangent);
-    if (!solver->factorise(tangent)) throw Error(ErrorCode::internal, "the head at rest is not stable");
-  }
-  Eigen::Index unknowns() const { return 3 * Eigen::Index(balance.blocks().count()); }
-};
+using bench::Rest;
 
 const Rest& rest() {
   static const Rest at_rest(bench::head());

@@ -67,6 +67,7 @@ struct Options {
   bool plan = false;              // look for choices that leave the electrodes nearest their targets
   int threads = 1;
   double accuracy = 0.0;   // mm, of what the solver leaves open; 0: as exact as it can be
+  StepperOptions solver;   // where accuracy is 0; threads and progress are set from here
   std::string progress = "auto";  // auto (a line on a terminal), line, json, none
   bool falx = true, skull = true, balanced = true, files = true, vtk = true, quiet = false;
 };

@@ -6,7 +6,7 @@ namespace dbs {
 
 Stepper Procedure::make_stepper(const Head& head, const Options& options, Watcher* watcher,
                                 SceneIds& ids) {
-  StepperOptions stepper;
+  StepperOptions stepper = options.solver;
   stepper.threads = options.threads;
   if (options.accuracy > 0.0) stepper = within(options.accuracy, head.brain, std::move(stepper));
   if (watcher) stepper.progress = [watcher](const Progress& p) { return watcher->goes_on(p); };

@@ -68,7 +68,7 @@ struct StepperOptions {
 };
 
 // `options` with tolerances for which what a solve leaves open moves no node by more than about
-// `accuracy` (mm): docs/speed.md has what is left in fact. Throws invalid_argument if it is not positive.
+// `accuracy` (mm): docs/charts/speed_accuracy.md has what is left in fact. Throws invalid_argument if it is not positive.
 StepperOptions within(double accuracy, const Mesh& mesh, StepperOptions options = {});
 
 enum class Status {
@@ -106,8 +106,8 @@ struct SolveReport {
   Status status = Status::not_converged;
   // max-norm of unbalanced force / largest of the force norms; in time inertia and damping are among
   // the forces. The norm counts as 1e-6 E D^2 at least (E: of the stiffest tissue, D: the diameter of
-  // the mesh): next to a region 1e10 times stiffer than the rest loads drop below that, and nothing
-  // that moves is asked for; docs/stability.md.
+  // the mesh); with E of the softest tissue at most 1e-4 is left open, so that the rounding of forces
+  // in a hard region does not hide a load on the rest; docs/stability.md.
   double residual = 0.0;
   // max of |min(gap/L, multiplier/F)| over one-sided rows (contacts, stops of a wire with slack), and
   // of what friction exceeds its bound by, over F.

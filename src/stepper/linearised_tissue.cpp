@@ -65,7 +65,7 @@ void LinearisedTissue::begin(Reduction base, const Eigen::VectorXd& force) {
 // A block lets go all of its rows if it loses one; those it keeps come back as rows of the border.
 void LinearisedTissue::find_border(const Reduction& wanted, const std::vector<NodeRow>& rows,
                                    std::size_t untagged) {
-  std::vector<char> asked(untagged + 1, 0), taken = asked;
+  std::vector<char> asked(untagged + 1, 0);
   for (const Reduction::Held& row : wanted.held_rows()) asked[row.tag] = 1;
   const std::vector<Reduction::Held> held = m_base->held_rows();
   Indices loose;
@@ -74,7 +74,7 @@ void LinearisedTissue::find_border(const Reduction& wanted, const std::vector<No
   }
   std::sort(loose.begin(), loose.end());
   loose.erase(std::unique(loose.begin(), loose.end()), loose.end());
-  taken = asked;
+  std::vector<char> taken = asked;
   taken[untagged] = 0;
   for (const Reduction::Held& row : held) {   // what the factor holds anyway
     if (!std::binary_search(loose.begin(), loose.end(), row.block)) taken[row.tag] = 0;

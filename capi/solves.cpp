@@ -46,6 +46,10 @@ brs_solve_report report_of(const SolveReport& r) {
           r.coupling_unique ? 1 : 0};
 }
 
+brs_memory_estimate memory_of(const MemoryEstimate& m) {
+  return {sizeof(brs_memory_estimate), m.factor, m.border, m.compliance, m.rest, m.total};
+}
+
 // Four digits of a number, whatever the locale of the host; without memory.
 struct Digits {
   char text[16] = {};
@@ -87,6 +91,17 @@ int32_t number_of(StepPhase phase) {
 }
 
 }  // namespace
+
+brs_status brs_memory_estimate_init(brs_memory_estimate* estimate, int64_t struct_size) {
+  return init(estimate, struct_size, memory_of(MemoryEstimate()));
+}
+
+brs_status brs_stepper_memory_estimate(brs_stepper* stepper, brs_memory_estimate* estimate) {
+  return guard(stepper, [&](brs_stepper& s) {
+    checked_size(estimate, "estimate");
+    write(estimate, memory_of(s.value.memory_estimate()), "estimate");
+  });
+}
 
 brs_status brs_solve_report_init(brs_solve_report* report, int64_t struct_size) {
   return init(report, struct_size, report_of(SolveReport()));

@@ -40,6 +40,8 @@ inline constexpr std::int64_t first_size<brs_track_options> = 32;
 template <>
 inline constexpr std::int64_t first_size<brs_device_state> = 168;
 template <>
+inline constexpr std::int64_t first_size<brs_memory_estimate> = 48;
+template <>
 inline constexpr std::int64_t first_size<brs_mcp_options> = 56;
 template <>
 inline constexpr std::int64_t first_size<brs_mcp_report> = 56;

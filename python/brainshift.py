@@ -601,6 +601,18 @@ class TrackOptions(Struct):
     _names = ['shear_bound', 'tip_bound', 'least_spacing', 'local_give']
 
 
+class MemoryEstimate(Struct):
+    """Bytes that a solve holds at its peak besides mesh and state; known from patterns alone."""
+    _init = 'brs_memory_estimate_init'
+    _fields_ = [('struct_size', c_int64),
+                ('factor', c_int64),
+                ('border', c_int64),
+                ('compliance', c_int64),
+                ('rest', c_int64),
+                ('total', c_int64)]
+    _names = ['factor', 'border', 'compliance', 'rest', 'total']
+
+
 class SolveReport(Struct):
     """Certificate of a solve, measured on the state that it leaves behind."""
     _init = 'brs_solve_report_init'
@@ -956,6 +968,10 @@ _library.brs_stepper_set_friction.restype = c_int32
 _library.brs_stepper_set_friction.argtypes = [c_void_p, c_int32, c_double, c_double]
 _library.brs_stepper_remove_device.restype = c_int32
 _library.brs_stepper_remove_device.argtypes = [c_void_p, c_int32]
+_library.brs_memory_estimate_init.restype = c_int32
+_library.brs_memory_estimate_init.argtypes = [POINTER(MemoryEstimate), c_int64]
+_library.brs_stepper_memory_estimate.restype = c_int32
+_library.brs_stepper_memory_estimate.argtypes = [c_void_p, POINTER(MemoryEstimate)]
 _library.brs_solve_report_init.restype = c_int32
 _library.brs_solve_report_init.argtypes = [POINTER(SolveReport), c_int64]
 _library.brs_stepper_solve_static.restype = c_int32
@@ -1468,6 +1484,16 @@ class Stepper(Handle):
     def remove_device(self, id):
         """INVALID_ARGUMENT."""
         self._call('brs_stepper_remove_device', self, id)
+
+    def memory_estimate(self):
+        """What a solve under the present settings will take, before any of it is taken. Costs a symbolic
+        analysis, which the next solve need not repeat. LINEAR_SOLVER where the factor is beyond what the
+        solver can number; CONFLICTING_CONSTRAINTS, FLUID_VOLUME, STRUCT_SIZE.
+        """
+        estimate = MemoryEstimate()
+        estimate._owner = self
+        self._call('brs_stepper_memory_estimate', self, byref(estimate))
+        return estimate
 
     def solve_static(self):
         """Quasi-static equilibrium under the present settings. report: filled where the status is not

@@ -112,6 +112,8 @@ BRS_API brs_status brs_stepper_set_hold(brs_stepper* stepper, int32_t id, const 
 BRS_API brs_status brs_stepper_set_friction(brs_stepper* stepper, int32_t id, double shear_bound,
                                             double tip_bound) { return 0; }
 BRS_API brs_status brs_stepper_remove_device(brs_stepper* stepper, int32_t id) { return 0; }
+BRS_API brs_status brs_memory_estimate_init(brs_memory_estimate* estimate, int64_t struct_size) { return 0; }
+BRS_API brs_status brs_stepper_memory_estimate(brs_stepper* stepper, brs_memory_estimate* estimate) { return 0; }
 BRS_API brs_status brs_solve_report_init(brs_solve_report* report, int64_t struct_size) { return 0; }
 BRS_API brs_status brs_stepper_solve_static(brs_stepper* stepper, brs_solve_report* report) { return 0; }
 BRS_API brs_status brs_stepper_step(brs_stepper* stepper, double dt, brs_solve_report* report) { return 0; }

@@ -4,6 +4,7 @@
 // calls solve_static(), or step() to go on in time. A solve that fails leaves the state as it was.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -152,6 +153,18 @@ struct ErrorEstimate {
   double seconds = 0.0;
 };
 
+// Bytes that a solve holds at its peak besides mesh and state. Known from patterns alone, before any of
+// it is taken.
+struct MemoryEstimate {
+  std::int64_t factor = 0;      // of the tissue's matrix
+  // Beside the factor: columns of the path of devices, and of contacts that change while a factor
+  // serves, as many as may stand there.
+  std::int64_t border = 0;
+  std::int64_t compliance = 0;  // of those columns and of coupling rows, W: dense
+  std::int64_t rest = 0;        // matrices, what belongs to nodes and tets, work space of all of it
+  std::int64_t total = 0;
+};
+
 class Stepper {
  public:
   // Throws Error naming the culprit: a region without material, a constraint on a node that is not
@@ -199,6 +212,11 @@ class Stepper {
 
   // Throws what solve_static() would throw for the present settings; changes nothing.
   void check_settings() const;
+
+  // What a solve under the present settings will take. Costs a symbolic analysis, which the next solve
+  // need not repeat. Throws linear_solver where the factor is beyond what the solver can number, and for
+  // settings that cannot be taken up.
+  MemoryEstimate memory_estimate() const;
 
   // Quasi-static equilibrium under the present settings; leaves all velocities zero. Throws Error
   // for bad settings (rigid_mode, fluid_volume); anything else ends in the report's status.

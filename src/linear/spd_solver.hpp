@@ -1,17 +1,28 @@
 // Sparse Cholesky of a symmetric positive definite block matrix: one interface, two backends.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "linear/block_matrix.hpp"
 
 namespace brainshift {
+
+// Bytes of a factor, and those that factorise() takes beside it while it works.
+struct FactorSize {
+  std::int64_t factor, work;
+};
 
 class SpdSolver {
  public:
   virtual ~SpdSolver() = default;
   // Symbolic analysis in the order the matrix has (it should be fill-reducing already).
   virtual void analyse(const BlockMatrix& matrix) = 0;
+  // Of the factor to come, from the analysis alone.
+  virtual FactorSize size() const = 0;
+  // Entries that each column of C would take beside the factor, append().
+  virtual std::vector<std::int64_t> reach(const SparseColumns& C) const = 0;
   // Numeric factor A = P^T L L^T P of a matrix with the analysed pattern; false: not positive definite.
   virtual bool factorise(const BlockMatrix& matrix) = 0;
   // Overwrites each column of `x` with the solution for it.

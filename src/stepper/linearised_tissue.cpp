@@ -9,7 +9,7 @@ namespace brainshift {
 namespace {
 
 // A border beyond these costs more than a new factor: columns per unknown, and in all.
-constexpr Eigen::Index part_of_border = 32, largest_border = 1000;
+constexpr Eigen::Index part_of_border = 32, columns_of_border = 1000;
 
 bool same(const SparseColumns& a, const SparseColumns& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() && (a - b).squaredNorm() == 0.0;
@@ -126,12 +126,16 @@ void LinearisedTissue::append_missing(const SparseColumns& KZ) {
   m_solver.append(m_base->restrict_columns(missing));
 }
 
+Eigen::Index LinearisedTissue::largest_border(Eigen::Index unknowns) {
+  return std::min(unknowns / part_of_border, columns_of_border);
+}
+
 bool LinearisedTissue::serve(const Reduction& wanted, const std::vector<NodeRow>& rows,
                              std::size_t untagged) {
   m_places.resize(untagged + 1);
   find_border(wanted, rows, untagged);
   const auto size = m_released.cols() + m_rows.cols();
-  if (size > std::min<Eigen::Index>(m_path.rows() / part_of_border, largest_border)) return false;
+  if (size > largest_border(m_path.rows())) return false;
   const SparseColumns KZ = m_K.multiply(m_released);
   append_missing(KZ);
   Eigen::MatrixXd S = schur(KZ);

@@ -31,6 +31,9 @@ class LinearisedTissue {
   // the ones that never change. False: the factor does not do, the tangent may not be positive there.
   bool serve(const Reduction& wanted, const std::vector<NodeRow>& rows, std::size_t untagged);
 
+  // Columns of a border of so many unknowns beyond which a new factor costs less.
+  static Eigen::Index largest_border(Eigen::Index unknowns);
+
   // Motion along the path by the force of begin(), and by unit forces along the path.
   const Eigen::VectorXd& free_motion() const { return m_free_path; }
   const Eigen::MatrixXd& compliance() const { return m_compliance; }

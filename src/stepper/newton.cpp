@@ -17,6 +17,17 @@ constexpr int stale_steps = 4;
 
 }  // namespace
 
+void FactorCache::prepare(const std::shared_ptr<const Blocks>& blocks, int threads) {
+  if (made_for == blocks) return;
+  made_for.reset();  // of no pattern, should one of the next lines throw
+  stiffness = blocks->make_matrix();
+  reduced = stiffness;
+  solver = make_spd_solver();
+  solver->set_threads(threads);
+  solver->analyse(reduced);
+  made_for = blocks;
+}
+
 Newton::Newton(const Equilibrium& equilibrium, const Coupling& coupling,
                const StepperOptions& options, FactorCache& cache, SolveReport& report,
                const BackwardEuler* euler)
@@ -34,14 +45,7 @@ Newton::Newton(const Equilibrium& equilibrium, const Coupling& coupling,
     const Vec3 left = free * row.normal;
     if (left.squaredNorm() > 1e-12) free -= left * left.transpose() / left.squaredNorm();
   }
-  if (m_cache.made_for == blocks) return;
-  m_cache.made_for.reset();  // of no pattern, should one of the next lines throw
-  m_cache.stiffness = blocks->make_matrix();
-  m_cache.reduced = m_cache.stiffness;
-  m_cache.solver = make_spd_solver();
-  m_cache.solver->set_threads(m_options.threads);
-  m_cache.solver->analyse(m_cache.reduced);
-  m_cache.made_for = blocks;
+  m_cache.prepare(blocks, m_options.threads);
 }
 
 void Newton::refresh() {

@@ -21,6 +21,9 @@ struct FactorCache {
   std::shared_ptr<const Blocks> made_for;
   BlockMatrix stiffness, reduced;
   std::unique_ptr<SpdSolver> solver;
+
+  // Makes them for this pattern, if they are for another.
+  void prepare(const std::shared_ptr<const Blocks>& blocks, int threads);
 };
 
 // A force that balances what is out of balance when a solve begins, to be let go in steps.

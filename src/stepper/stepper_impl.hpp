@@ -99,6 +99,8 @@ class Stepper::Impl {
     Solve solve;
   };
 
+  MemoryEstimate memory_estimate();   // memory_estimate.cpp
+
   // stepper_solve.cpp
   void begin(const std::optional<double>& dt);
   template <class Phase>

@@ -35,6 +35,7 @@ struct Harmless {
   brs_stepper_options stepper_options;
   brs_hold hold;
   brs_track_options track_options;
+  brs_memory_estimate memory_estimate;
   brs_solve_report solve_report;
   brs_compartment_state compartment_state;
   brs_contact_state contact_state;
@@ -59,6 +60,7 @@ struct Harmless {
     brs_stepper_options_init(&stepper_options, sizeof stepper_options);
     brs_hold_init(&hold, sizeof hold);
     brs_track_options_init(&track_options, sizeof track_options);
+    brs_memory_estimate_init(&memory_estimate, sizeof memory_estimate);
     brs_solve_report_init(&solve_report, sizeof solve_report);
     brs_compartment_state_init(&compartment_state, sizeof compartment_state);
     brs_contact_state_init(&contact_state, sizeof contact_state);
@@ -297,6 +299,10 @@ inline std::vector<Probe> probes(World& w, Harmless& s, Made& made) {
       {"brs_stepper_remove_device", "stepper",
        [&](void* h) {
          return brs_stepper_remove_device(as<brs_stepper>(h), 1);
+       }},
+      {"brs_stepper_memory_estimate", "stepper",
+       [&](void* h) {
+         return brs_stepper_memory_estimate(as<brs_stepper>(h), &s.memory_estimate);
        }},
       {"brs_stepper_solve_static", "stepper",
        [&](void* h) {

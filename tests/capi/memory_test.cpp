@@ -198,6 +198,11 @@ TEST(Memory, RunningOutWhileAnswersAreComputedLeavesTheStateAsItWas) {
   }
   EXPECT_GT(error, 0.0);
   EXPECT_EQ(w.field(BRS_FIELD_DISPLACEMENT), before);
+  brs_memory_estimate memory;
+  w.good(brs_memory_estimate_init(&memory, sizeof memory));
+  fail_each_allocation("memory estimate", [&] { return brs_stepper_memory_estimate(w.stepper, &memory); });
+  w.good(w.solve_after_loss(5000.0));   // whatever is left of the failures
+  EXPECT_EQ(w.field(BRS_FIELD_DISPLACEMENT), before);
   const double matrix[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-1.0, -2.0}, lower[] = {0.0, 0.0},
                upper[] = {9.0, 9.0};
   double z[2] = {};

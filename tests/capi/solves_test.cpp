@@ -45,6 +45,32 @@ TEST_F(Solves, PhaseByPhaseEndAtTheSameBits) {
   EXPECT_EQ(phase(), BRS_PHASE_IDLE);
 }
 
+TEST_F(Solves, MemoryIsKnownBeforeTheyBeginAndWhateverHasBeenDone) {
+  brs_memory_estimate before, now;
+  w.good(brs_memory_estimate_init(&before, sizeof before));
+  w.good(brs_memory_estimate_init(&now, sizeof now));
+  w.good(brs_stepper_memory_estimate(w.stepper, &before));
+  EXPECT_GT(before.factor, 0);
+  EXPECT_GT(before.border, 0);   // for contacts
+  EXPECT_GT(before.compliance, 0);
+  EXPECT_GT(before.rest, 0);
+  EXPECT_EQ(before.total, before.factor + before.border + before.compliance + before.rest);
+  const auto expect_the_same = [&](const char* when) {
+    w.good(brs_stepper_memory_estimate(w.stepper, &now));
+    EXPECT_EQ(now.total, before.total) << when;
+    EXPECT_EQ(now.factor, before.factor) << when;
+  };
+  w.good(brs_stepper_set_csf(w.stepper, 0, BRS_CSF_LOST_VOLUME, 5000.0));
+  w.good(brs_stepper_begin_static(w.stepper));
+  expect_the_same("begun");
+  ASSERT_EQ(run_phases(), BRS_PHASE_CONVERGED);
+  expect_the_same("converged");
+  w.good(brs_stepper_accept(w.stepper, nullptr));
+  expect_the_same("after the solve");
+  other.good(other.solve_after_loss(5000.0));   // which nobody has asked for its memory
+  EXPECT_EQ(w.field(BRS_FIELD_DISPLACEMENT), other.field(BRS_FIELD_DISPLACEMENT));
+}
+
 TEST_F(Solves, PhasesOutOfOrderAreRefusedByName) {
   const double* values = nullptr;
   EXPECT_EQ(brs_stepper_linearise(w.stepper), BRS_ERROR_INVALID_ARGUMENT);

@@ -48,6 +48,7 @@ TEST(Structs, InitKnowsItsSizes) {
   expect_sizes_checked(&brs_hold_init, "hold");
   expect_sizes_checked(&brs_track_options_init, "track_options");
   expect_sizes_checked(&brs_device_state_init, "device_state");
+  expect_sizes_checked(&brs_memory_estimate_init, "memory_estimate");
   expect_sizes_checked(&brs_mcp_options_init, "mcp_options");
   expect_sizes_checked(&brs_mcp_report_init, "mcp_report");
 }

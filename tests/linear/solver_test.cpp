@@ -98,6 +98,40 @@ TEST(SpdSolver, TheComplianceIsThatOfDenseSolves) {
   EXPECT_EQ(found.col(2).norm(), 0.0);
 }
 
+// Known from the pattern: at least what is there in the end, and not much more.
+TEST(SpdSolver, TheSizeOfAFactorIsKnownFromItsAnalysis) {
+  for (Index n : {1, 20, 150}) {
+    const test::RandomMatrix random(n, 10);
+    const auto solver = make_spd_solver();
+    solver->analyse(random.blocks);
+    const FactorSize size = solver->size();
+    EXPECT_GT(size.work, 0);
+    ASSERT_TRUE(solver->factorise(random.blocks));
+    EXPECT_GE(double(size.factor), 8.0 * solver->factor_nonzeros()) << n;
+    EXPECT_LE(double(size.factor), 2.0 * 8.0 * solver->factor_nonzeros() + 1e3) << n;   // squares for triangles
+    EXPECT_EQ(solver->size().factor, size.factor);
+  }
+}
+
+TEST(SpdSolver, WhatAColumnReachesIsKnownFromTheAnalysis) {
+  const test::RandomMatrix random(150, 8);
+  std::vector<Eigen::Triplet<double>> entries{{449, 0, 2.0}, {0, 1, 1.0}, {220, 2, 1.0}, {222, 2, -1.0}};
+  for (int i = 0; i < 450; i += 7) entries.emplace_back(i, 3, 1.0);
+  SparseColumns C(450, 5);   // the last is empty
+  C.setFromTriplets(entries.begin(), entries.end());
+  const auto solver = make_spd_solver();
+  solver->analyse(random.blocks);
+  const std::vector<std::int64_t> reach = solver->reach(C);
+  ASSERT_TRUE(solver->factorise(random.blocks));
+  EXPECT_EQ(solver->reach(C), reach);
+  ASSERT_EQ(reach.size(), 5u);
+  for (int c = 0; c < 5; ++c) {
+    const Eigen::VectorXd z = solver->forward(Eigen::VectorXd(C.col(c)));
+    EXPECT_LE((z.array() != 0.0).count(), reach[std::size_t(c)]) << c;
+    EXPECT_LE(reach[std::size_t(c)], 450) << c;
+  }
+}
+
 TEST(SpdSolver, ASolveInTwoHalvesIsOne) {
   const test::RandomMatrix random(150, 9);
   std::vector<Eigen::Triplet<double>> entries{{449, 0, 2.0}, {0, 1, 1.0}, {1, 1, -1.0}, {200, 2, 0.5}};

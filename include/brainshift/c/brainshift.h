@@ -521,6 +521,22 @@ BRS_API brs_status brs_stepper_set_friction(brs_stepper* stepper, int32_t id, do
 /* INVALID_ARGUMENT. */
 BRS_API brs_status brs_stepper_remove_device(brs_stepper* stepper, int32_t id);
 
+/* Bytes that a solve holds at its peak besides mesh and state; known from patterns alone. */
+typedef struct brs_memory_estimate {
+  int64_t struct_size;
+  int64_t factor;     /* of the tissue's matrix */
+  int64_t border;     /* beside it: paths of devices, and contacts, as many as may stand there */
+  int64_t compliance; /* of those and of coupling rows: dense */
+  int64_t rest;       /* matrices, what belongs to nodes and tets, work space of all of it */
+  int64_t total;
+} brs_memory_estimate;
+
+BRS_API brs_status brs_memory_estimate_init(brs_memory_estimate* estimate, int64_t struct_size);
+/* What a solve under the present settings will take, before any of it is taken. Costs a symbolic
+ * analysis, which the next solve need not repeat. LINEAR_SOLVER where the factor is beyond what the
+ * solver can number; CONFLICTING_CONSTRAINTS, FLUID_VOLUME, STRUCT_SIZE. */
+BRS_API brs_status brs_stepper_memory_estimate(brs_stepper* stepper, brs_memory_estimate* estimate);
+
 /* Certificate of a solve, measured on the state that it leaves behind. */
 typedef struct brs_solve_report {
   int64_t struct_size;

@@ -47,6 +47,7 @@ constexpr Eigen::Index columns_per_chunk = 16;
   throw Error(ErrorCode::linear_solver,
               std::string("CHOLMOD ") + what + " failed: " +
                   (status == CHOLMOD_OUT_OF_MEMORY ? "out of memory"
+                   : status == CHOLMOD_TOO_LARGE   ? "its factor has more than 2^31 entries"
                                                    : "status " + std::to_string(status)));
 }
 
@@ -112,7 +113,19 @@ class CholmodSolver final : public SpdSolver {
     cholmod_sparse a = view(matrix);
     const NoTeam alone;
     m_factor = cholmod_analyze(&a, &m_common);
+    m_entries = matrix.values().size();
     if (m_common.status < CHOLMOD_OK) fail("analysis", m_common.status);
+  }
+
+  // Supernodes with their rows; a permuted copy of the matrix and the largest update while it works.
+  FactorSize size() const override {
+    constexpr auto entry = std::int64_t(sizeof(double)), index = std::int64_t(sizeof(int));
+    const cholmod_factor& f = *m_factor;
+    return {std::int64_t(f.xsize) * entry + std::int64_t(f.ssize + 2 * f.n + 3 * f.nsuper) * index,
+            std::int64_t(m_entries) * (entry + index) + std::int64_t(f.maxcsize) * entry};
+  }
+  std::vector<std::int64_t> reach(const SparseColumns& C) const override {
+    return FactorColumns::reach(*m_factor, C);
   }
 
   bool factorise(const BlockMatrix& matrix) override {
@@ -189,6 +202,7 @@ class CholmodSolver final : public SpdSolver {
 
   cholmod_common m_common{};
   cholmod_factor* m_factor = nullptr;
+  std::size_t m_entries = 0;   // of the matrix
   FactorColumns m_columns;
   std::vector<std::unique_ptr<Workspace>> m_workspaces;   // one per chunk of columns
   int m_threads = 1;

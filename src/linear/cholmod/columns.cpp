@@ -32,7 +32,7 @@ class Supernodes {
         m_pi(static_cast<const int*>(f.pi)),
         m_px(static_cast<const int*>(f.px)),
         m_s(static_cast<const int*>(f.s)),
-        m_x(static_cast<const double*>(f.x)),
+        m_x(static_cast<const double*>(f.x)),   // null in a symbolic factor
         m_of(f.n) {
     for (int s = 0; s < int(f.nsuper); ++s) {
       std::fill(m_of.begin() + m_super[s], m_of.begin() + m_super[s + 1], s);
@@ -40,7 +40,7 @@ class Supernodes {
   }
   Supernode operator[](int s) const {
     return {m_super[s], m_super[s + 1] - m_super[s], m_pi[s + 1] - m_pi[s], m_s + m_pi[s],
-            m_x + m_px[s]};
+            m_x ? m_x + m_px[s] : nullptr};
   }
   int of(int column) const { return m_of[std::size_t(column)]; }
 
@@ -76,6 +76,25 @@ class Rest {
 };
 
 }  // namespace
+
+std::vector<std::int64_t> FactorColumns::reach(const cholmod_factor& factor, const SparseColumns& C) {
+  const Supernodes supernodes(factor);
+  std::vector<int> place(factor.n);
+  for (int i = 0; i < int(factor.n); ++i) place[std::size_t(static_cast<const int*>(factor.Perm)[i])] = i;
+  std::vector<std::int64_t> entries(std::size_t(C.cols()), 0);
+  std::vector<int> seen(factor.nsuper, -1);   // by which column last
+  for (int c = 0; c < int(C.cols()); ++c) {
+    for (SparseColumns::InnerIterator it(C, c); it; ++it) {
+      for (int s = supernodes.of(place[std::size_t(it.row())]); seen[std::size_t(s)] != c;) {
+        const Supernode node = supernodes[s];
+        seen[std::size_t(s)] = c;
+        entries[std::size_t(c)] += node.columns;
+        if (node.rows > node.columns) s = supernodes.of(node.row[node.columns]);
+      }
+    }
+  }
+  return entries;
+}
 
 void FactorColumns::clear() {
   m_parts.clear();

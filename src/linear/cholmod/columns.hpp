@@ -1,6 +1,7 @@
 // Columns beside a supernodal Cholesky factor.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <cholmod.h>
@@ -13,6 +14,8 @@ namespace brainshift {
 // the supernodes on their way to the root of the elimination tree and no others (Gilbert, Peierls 1988).
 class FactorColumns {
  public:
+  // Entries that append() would keep of each column; the factor may be a symbolic one.
+  static std::vector<std::int64_t> reach(const cholmod_factor& factor, const SparseColumns& C);
   void clear();
   // Works out L^-1 P C behind what is there; throws Error(internal) for a factor of another kind.
   void append(const cholmod_factor& factor, const SparseColumns& C);

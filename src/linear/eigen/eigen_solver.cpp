@@ -12,7 +12,18 @@ class EigenSolver final : public SpdSolver {
  public:
   void analyse(const BlockMatrix& matrix) override {
     m_llt.analyzePattern(view(matrix));
+    m_entries = std::int64_t(matrix.values().size());
     m_nonzeros = 0.0;
+  }
+
+  // What the analysis has made room for; a copy of the matrix and its permuted one while it works.
+  FactorSize size() const override {
+    constexpr auto entry = std::int64_t(sizeof(double) + sizeof(int));
+    return {m_llt.entries() * entry, 2 * m_entries * entry};
+  }
+  // Columns are kept in full.
+  std::vector<std::int64_t> reach(const SparseColumns& C) const override {
+    return std::vector<std::int64_t>(std::size_t(C.cols()), std::int64_t(C.rows()));
   }
 
   bool factorise(const BlockMatrix& matrix) override {
@@ -67,9 +78,14 @@ class EigenSolver final : public SpdSolver {
   }
 
   // The matrix comes in nested-dissection order, so none is chosen here.
-  Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> m_llt;
+  class Factor : public Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> {
+   public:
+    std::int64_t entries() const { return std::int64_t(m_matrix.nonZeros()); }   // known once it is analysed
+  };
+  Factor m_llt;
   Eigen::MatrixXd m_columns, m_product;   // L^-1 C and C^T A^-1 C
   double m_nonzeros = 0.0;
+  std::int64_t m_entries = 0;   // of the matrix
   int m_threads = 1;
 };
 

@@ -13,17 +13,18 @@ namespace brainshift::test {
 constexpr double walled_side = 60.0;   // mm
 
 // `cells` along each edge, six tets each; held at its base, under a tilted gravity. It has an equilibrium
-// without the walls.
-inline Scene walled_block(Index cells, Index candidates) {
+// without the walls, which are `room` mm away at first. Candidates: from its top downwards.
+inline Scene walled_block(Index cells, Index candidates, double room = 5.0) {
   const double side = walled_side;
   Scene scene{make_mesh(make_box({side, side, side}, cells, cells, cells)),
               {{0, Material(Law::corotational, 6.0, 0.45, tissue_density)}}};
   scene.balanced_reference = false;
   scene.gravity = standard_gravity * Vec3(0.6, 0.0, -0.8);
   scene.constraints.fix("base", nodes_where(scene.mesh, [](const Vec3& x) { return x.z() == 0.0; }));
-  const auto wall = box_wall({-5.0, -5.0, -5.0}, {side + 5.0, side + 5.0, side + 5.0});
+  const auto wall = box_wall(Vec3::Constant(-room), Vec3::Constant(side + room));
   const Surface cavity = Surface::cavity(wall.points, wall.triangles);
   Indices nodes = nodes_where(scene.mesh, [](const Vec3& x) { return x.z() > 0.0; });
+  std::reverse(nodes.begin(), nodes.end());
   for (int group = 0; candidates > 0; ++group) {   // more candidates than nodes: several walls
     nodes.resize(std::min(nodes.size(), std::size_t(candidates)));
     scene.constraints.obstacle("wall " + std::to_string(group), nodes, cavity);

@@ -3,7 +3,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-from matplotlib.ticker import FuncFormatter, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 matplotlib.rcParams["svg.hashsalt"] = "scaling"   # the same names in the file again
 matplotlib.rcParams["svg.fonttype"] = "none"      # text that can be searched
@@ -49,6 +49,7 @@ def panel(axis, title, along, up, logarithmic=True):
         axis.set_xscale("log")
         axis.set_yscale("log")
         for scale in (axis.xaxis, axis.yaxis):
+            scale.set_major_locator(LogLocator(subs=(1, 2, 5)))
             scale.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
             scale.set_minor_formatter(NullFormatter())
     return axis

@@ -84,7 +84,7 @@ json yardstick(const std::string& heads) {
   const Head head = read_head(heads + "/medium");
   bench::Rest rest(head);
   std::vector<double> seconds;
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < 3; ++i) {
     Eigen::MatrixXd x = Eigen::MatrixXd::Ones(rest.unknowns(), 1);
     const Clock clock;
     if (!rest.solver->factorise(rest.tangent)) throw Error(ErrorCode::internal, "the head at rest is not stable");
@@ -92,7 +92,7 @@ json yardstick(const std::string& heads) {
     seconds.push_back(clock.cpu());
   }
   std::sort(seconds.begin(), seconds.end());
-  return {{"cpu_seconds", seconds[2]}};
+  return {{"cpu_seconds", seconds[1]}};
 }
 
 json block(const json& asked) {

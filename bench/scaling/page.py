@@ -7,9 +7,10 @@ INTRO = """# Scaling
 
 Written by `bench/scaling/run --write-docs`: what a solve takes of time and memory against its size. Each row is a
 process of its own. Time: CPU seconds of all solves of the row, and yardsticks; a yardstick is one numeric factor and
-one solve of the stiffness of both halves of the medium head, one thread (median of those between the rows:
-{yardstick:.3f} s; {processor}). Memory: how far resident memory rises from before the first solve to its peak, beside
-what `Stepper::memory_estimate()` says before it.
+one solve of the stiffness of both halves of the medium head, one thread (median of those before the series:
+{yardstick:.3f} s; {processor}, {cores} cores; the machine had up to {load:.0f} processes at work besides, which wall
+time shows). Memory: how far resident memory rises from before the first solve to its peak, beside
+what `Stepper::memory_estimate()` says before it; of a few MB the half is code and buffers of the process.
 
 ![chart](charts/scaling.svg)
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "linear/matrices.hpp"
+#include "support/expect_error.hpp"
 
 namespace brainshift {
 namespace {
@@ -111,6 +112,18 @@ TEST(SpdSolver, TheSizeOfAFactorIsKnownFromItsAnalysis) {
     EXPECT_LE(double(size.factor), 2.0 * 8.0 * solver->factor_nonzeros() + 1e3) << n;   // squares for triangles
     EXPECT_EQ(solver->size().factor, size.factor);
   }
+}
+
+// One block that all others touch, eliminated first: the factor is dense, and beyond what int can number.
+TEST(SpdSolver, AFactorThatIsTooLargeIsRefusedByItsAnalysis) {
+  if (!WITH_CHOLMOD) GTEST_SKIP() << "Eigen numbers entries of a factor without a check";
+  constexpr Index n = 22000;   // (3 n)^2 = 4.4e9 entries, 35 GB
+  std::vector<Indices> star(std::size_t(n), Indices{0});
+  star[0].clear();
+  for (Index i = 1; i < n; ++i) star[0].push_back(i);
+  const BlockMatrix matrix(star);
+  const auto solver = make_spd_solver();
+  test::expect_error(ErrorCode::linear_solver, {"CHOLMOD analysis", "2^31 entries"}, [&] { solver->analyse(matrix); });
 }
 
 TEST(SpdSolver, WhatAColumnReachesIsKnownFromTheAnalysis) {

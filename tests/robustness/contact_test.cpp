@@ -228,6 +228,9 @@ TEST(ContactLimits, K11_every_node_of_a_surface_in_contact) {
   const ConstraintId all = scene.constraints.obstacle("skull", outside, cavity, 1.0, touching);
   Stepper stepper(scene);
   stepper.csf().set_lost_volume(0, 9000.0);
+  const MemoryEstimate memory = stepper.memory_estimate();   // before anything is taken
+  EXPECT_LT(memory.border + memory.compliance, 602 * 602 * 8);
+  EXPECT_LT(memory.total, 40e6);
   const SolveReport report = stepper.solve_static();
   expect_converged(report);
   EXPECT_EQ(stepper.contact(all).gap.size(), 602);

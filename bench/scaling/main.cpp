@@ -6,7 +6,7 @@
 //   scene: yardstick   a factor and a solve of the medium head's stiffness
 //          block       cells, candidates, leads, depth (mm), gravity (1: the Earth's), threads; see
 //                      tests/support/walled_block.hpp
-//          procedure   head, refinements, threads: the stages of both sides to 0.1 mm
+//          procedure   head, threads: the stages of both sides to 0.1 mm
 //          branches    head, count: that many other trajectories from one state, all kept
 // bench/scaling/run goes through them all.
 #include <algorithm>
@@ -19,7 +19,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "accuracy/refined_head.hpp"
 #include "procedure.hpp"
 #include "scaling/resident.hpp"
 #include "speed/rest.hpp"
@@ -124,8 +123,7 @@ Options quiet(const json& asked) {
 }
 
 json procedure_of_both_sides(const std::string& heads, const json& asked) {
-  Head head = read_head(heads + "/" + asked.at("head").get<std::string>());
-  for (int i = 0; i < asked.value("refinements", 0); ++i) head = refined(head);
+  const Head head = read_head(heads + "/" + asked.at("head").get<std::string>());
   Procedure procedure(head, quiet(asked));
   const bench::ResidentPeak memory;
   const Clock clock;

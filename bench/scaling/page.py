@@ -19,7 +19,7 @@ above it; to the default tolerances. **Procedure**: all stages of both sides on 
 
 NOTES = {
     "tets of a block": "2000 nodes are contact candidates, and one lead is in it.",
-    "tets of a head": "The procedure. *refined*: each tet cut into eight.",
+    "tets of a head": "The procedure.",
     "contact candidates": "Block of 17 cells a side, no lead. More candidates than nodes: several walls.",
     "coupling rows": "Block of 17 cells a side, no walls, one to twenty leads, a twentieth of gravity.",
     "threads": "The procedure on the medium head.",
@@ -43,10 +43,6 @@ def table(name, rows):
     return lines + ["| " + " | ".join(value(row) for value in columns.values()) + " |" for row in rows]
 
 
-def head_of(row):
-    return row["case"]["head"] + (", refined" if row["case"].get("refinements") else "")
-
-
 def per_iteration(row):
     return f"{row['cpu_seconds'] / max(row['iterations'], 1):.3g}"
 
@@ -57,7 +53,7 @@ def megabytes(size):
 
 LEADING = {
     "tets of a block": {"tets": lambda r: str(r["tets"]), "unknowns": lambda r: str(r["unknowns"])},
-    "tets of a head": {"head": head_of, "tets": lambda r: str(r["tets"]), "unknowns": lambda r: str(r["unknowns"])},
+    "tets of a head": {"head": lambda r: r["case"]["head"], "tets": lambda r: str(r["tets"]), "unknowns": lambda r: str(r["unknowns"])},
     "contact candidates": {"candidates": lambda r: str(r["candidates"]), "in contact": lambda r: str(r["active_contacts"])},
     "coupling rows": {"rows": lambda r: str(r["coupling_rows"]), "leads": lambda r: str(r["case"]["leads"])},
     "threads": {"threads": lambda r: str(r["case"]["threads"]), "wall s": lambda r: f"{r['wall_seconds']:.3g}"},
@@ -88,7 +84,7 @@ def bound(series):
     for r in large:
         e = r["estimate"]
         needed = e["factor"] + e["border"] + e["compliance"]
-        scene = f"block, {r['tets']} tets" if r["case"]["scene"] == "block" else f"procedure, {head_of(r)}"
+        scene = f"{r['case']['scene']}, {r['tets']} tets"
         lines.append(f"| {scene} | {r['unknowns']} | {r['active_contacts']} | {r['coupling_rows']} | "
                      f"{megabytes(e['factor'])} | {megabytes(e['border'])} | {megabytes(e['compliance'])} | "
                      f"{megabytes(r['resident_rise'])} | {r['resident_rise'] / needed:.2f} | "

@@ -10,7 +10,8 @@ Groups (default: core):
   core   compiler, CMake, Ninja, Eigen, SuiteSparse, METIS, a serial OpenBLAS, and the libraries of
          the io target and the examples
   test   GoogleTest; Python with numpy and VTK for checks against VTK; where it can be had,
-         Siconos for a cross-check of complementarity problems, abidiff for the ABI of the C face,
+         Siconos for a cross-check of complementarity problems, CalculiX for one of a solve, abidiff for
+         the ABI of the C face,
          Doxygen and Sphinx for the reference and the site, and what draws pictures and reports, with Chromium to look at them
   data   what examples/head needs to make the head anew: volumes, CGAL, Python packages
   own_head  what examples/own_head needs: CGAL, Python packages (nibabel, VTK)
@@ -18,6 +19,7 @@ Groups (default: core):
   docs   what draws pictures, charts and reports: VTK, matplotlib, a virtual X server
   site   what makes the site of documents: Sphinx with MyST, Doxygen
   bench  Google Benchmark
+  peers  CalculiX, for comparison
 
 Does nothing where all is installed. Needs root or sudo only if something is missing.
 END
@@ -100,6 +102,10 @@ END
 libbenchmark-dev|header:benchmark/benchmark.h|Google Benchmark
 END
       ;;
+    peers) cat <<'END'
+calculix-ccx|command:ccx|CalculiX
+END
+      ;;
   esac
 }
 
@@ -118,6 +124,7 @@ python3-pil|python:PIL|Pillow
 xvfb|command:xvfb-run|Xvfb
 xauth|command:xauth|xauth
 libgl1-mesa-dri|command:xvfb-run|Mesa
+calculix-ccx|command:ccx|CalculiX
 chromium|command:chromium|Chromium
 END
       ;;
@@ -232,8 +239,8 @@ main() {
   for group in "$@"; do
     case "$group" in
       -h | --help) usage; exit 0 ;;
-      core | test | data | own_head | fuzz | docs | site | bench) ;;
-      *) echo "install-deps: unknown group '$group'; known: core test data own_head fuzz docs site bench" >&2; exit 2 ;;
+      core | test | data | own_head | fuzz | docs | site | bench | peers) ;;
+      *) echo "install-deps: unknown group '$group'; known: core test data own_head fuzz docs site bench peers" >&2; exit 2 ;;
     esac
   done
   [ $# -gt 0 ] || set -- core

@@ -1,5 +1,9 @@
 // Whole solves on a head: fluid lost, the procedure of both sides, and another trajectory for one of them.
+#include <cmath>
+#include <ctime>
+
 #include <benchmark/benchmark.h>
+#include <Eigen/Geometry>
 
 #include "procedure.hpp"
 #include "speed/heads.hpp"
@@ -36,6 +40,37 @@ Work run_all(Procedure& procedure, const std::vector<Stage>& plan) {
   Work work;
   for (const Stage& stage : plan) work.add(procedure.run(stage).report);
   return work;
+}
+
+// One linearisation of the brain in its skull, in a step of a second: CPU seconds of one thread, beside the
+// yardstick, which is the factor and the solve of this matrix. The head is tilted to and fro before each step,
+// so far that contacts change (five degrees), or so little that they do not.
+void iteration(benchmark::State& state) {
+  SceneIds ids;
+  StepperOptions once;   // tolerances that the first iterate meets
+  once.residual_tolerance = once.complementarity_tolerance = 10.0;
+  once.correction_tolerance = 1e9;
+  const Scene scene = make_scene(bench::head(), Options{}, ids);
+  Stepper stepper(scene, once);
+  const double tilt = 1e-3 * double(state.range(0)) * M_PI / 180.0;
+  Work work;
+  double angle = 0.0;
+  const auto step = [&] {
+    angle = angle > 0.0 ? 0.0 : tilt;
+    stepper.set_gravity(Eigen::AngleAxisd(angle, Vec3::UnitX()) * scene.gravity);
+    stepper.begin_step(1.0);
+    const std::clock_t begin = std::clock();
+    stepper.linearise();
+    stepper.solve();
+    stepper.update();
+    const std::clock_t end = std::clock();
+    work = {};
+    work.add(stepper.accept());
+    return double(end - begin) / CLOCKS_PER_SEC;
+  };
+  step();
+  for (auto _ : state) state.SetIterationTime(step());
+  work.tell(state);
 }
 
 // 20 mL lost on each side, no devices; from files to the last stage but for reading them.
@@ -89,6 +124,8 @@ void what_if(benchmark::State& state) {
 #define SCENE(name)                                                            \
   BENCHMARK(name)->ArgNames({"threads", "um"})->ArgsProduct({{1, 2}, {0, 100}}) \
       ->Unit(benchmark::kMillisecond)->Iterations(1)->UseRealTime()
+BENCHMARK(iteration)->ArgName("millidegrees")->Arg(1)->Arg(5000)
+    ->Unit(benchmark::kMillisecond)->Iterations(6)->UseManualTime();
 SCENE(csf_loss);
 SCENE(procedure_of_both_sides);
 SCENE(what_if);

@@ -25,8 +25,10 @@ class LinearisedTissue {
   bool has_factor() const { return m_factored.has_value(); }
   const Reduction& factored() const { return *m_factored; }
 
-  // Begins an iteration. base: the set of the factor with the rows of today.
-  void begin(Reduction base, const Eigen::VectorXd& force);
+  // Begins an iteration. held: the rows of the factor's set, as they are today; in_force: those of the set
+  // to begin with, with their multipliers (by tag).
+  void begin(std::vector<NodeRow> held, const std::vector<NodeRow>& in_force,
+             const std::vector<double>& multipliers, const Eigen::VectorXd& force);
   // Makes ready for steps that obey the rows of `wanted`. rows: those of `wanted` by tag, `untagged` for
   // the ones that never change. False: the factor does not do, the tangent may not be positive there.
   bool serve(const Reduction& wanted, const std::vector<NodeRow>& rows, std::size_t untagged);
@@ -44,14 +46,25 @@ class LinearisedTissue {
   Eigen::VectorXd times(const Eigen::VectorXd& dx) const;   // (K + sum column row^T) dx
 
  private:
-  // A column of the border beside the factor: the motion that a row's release gives, or a row.
+  // Columns of the border beside the factor, of one tag: the motion that its row's release gives, and the
+  // row. With what they were made of, on blocks.
   struct Place {
     int released = -1, held = -1;
+    Eigen::SparseVector<double> motion, pushed, row;   // Z, K Z, N
+  };
+  struct Pushing {
+    NodeRow row;
+    double multiplier;
   };
   void find_border(const Reduction& wanted, const std::vector<NodeRow>& rows, std::size_t untagged);
   SparseColumns gather(const std::vector<NodeRow>& rows, const std::vector<char>& taken);
-  void append_missing(const SparseColumns& KZ);
-  Eigen::MatrixXd schur(const SparseColumns& KZ) const;
+  void take_path();
+  void count_in(const std::vector<NodeRow>& rows, const std::vector<double>& multipliers);
+  static void push(const NodeRow& row, double multiplier, Eigen::VectorXd& force);
+  void take_back();
+  void append_missing();
+  void collect_columns();
+  Eigen::MatrixXd schur() const;
   void act_on_path();
   void solve_border();
 
@@ -63,19 +76,26 @@ class LinearisedTissue {
   Eigen::MatrixXd m_restricted_rows;         // T^T of the terms' rows
   Eigen::MatrixXd m_moved, m_moved_rows;     // A^-1 T^T of the terms
 
-  // Of an iteration. Columns of the solver: those of the path, and what any set of it has needed.
-  std::optional<Reduction> m_base;
+  // Of a factor. Columns of the solver: those of the path, and what any set has needed since.
   SparseColumns m_path_columns;              // T^T of the path
-  Eigen::VectorXd m_force;                   // less K c
-  Eigen::VectorXd m_restricted, m_forward;   // T^T of that, and half of its solution
   std::vector<Place> m_places;               // by tag
+
+  // Of an iteration.
+  std::optional<Reduction> m_base;
+  Eigen::VectorXd m_force;                   // less K c, with the rows counted in
+  Eigen::VectorXd m_restricted, m_forward;   // T^T of that, and half of its solution
+  std::vector<Pushing> m_pushing;            // the rows counted in
+  std::vector<std::size_t> m_loose;          // rows of the factor that are not in force
 
   // Of the set that is served. Unknowns of the border: released motions, rows, terms.
   SparseColumns m_released;                  // Z, on blocks
   SparseColumns m_rows;                      // N, on blocks
   Eigen::VectorXd m_values;                  // of the rows
+  Eigen::VectorXd m_taken_back;              // on blocks: of rows counted in that the set lets go
+  Eigen::VectorXd m_given;                   // of each column of the solver, for the same
   std::vector<std::size_t> m_released_tags, m_row_tags;
   std::vector<int> m_columns;                // of the solver, for T^T [K Z, N]
+  SparseColumns m_Z, m_KZ, m_N;              // what those columns were made of
   DenseLu m_schur;
   // Border x path: E^T A^-1 P - Z^T P, with the columns and with the rows of the terms.
   Eigen::MatrixXd m_to_path, m_from_path;

@@ -15,6 +15,9 @@ namespace {
 constexpr double stale_reach = 5e-3, stale_rate = 0.5;
 constexpr int stale_steps = 4;
 
+// Iterations that a credit lasts: a slender body that turns far needs up to four until its energy is below.
+constexpr int credit_iterations = 5;
+
 }  // namespace
 
 void FactorCache::prepare(const std::shared_ptr<const Blocks>& blocks, int threads) {
@@ -84,6 +87,8 @@ Newton::Outcome Newton::begin(const MechanicalState& start, const Offset& offset
   m_iteration = 0;
   m_last = m_previous = std::numeric_limits<double>::infinity();
   m_active.assign(m_eq.contacts().size(), 0);
+  m_credit.reset();
+  m_may_borrow = !m_euler && m_coupling.empty() && m_eq.contacts().size() == 0;
   m_linearised.emplace(m_cache.stiffness, *m_cache.solver, m_coupling.path_columns(m_eq.blocks()));
   refresh();
   measure();
@@ -103,12 +108,31 @@ void Newton::solve() {
 }
 
 Newton::Outcome Newton::update() {
+  Outcome outcome = go_on();
+  const bool ended = outcome == Outcome::converged || outcome == Outcome::stuck;
+  if (m_credit && (ended || m_iteration >= m_credit->since + credit_iterations)) outcome = return_from_credit();
+  if (outcome != Outcome::ongoing) return outcome;
+  return ++m_iteration < m_options.max_iterations ? outcome : Outcome::out_of_iterations;
+}
+
+Newton::Outcome Newton::go_on() {
   if (!m_found) return m_fresh ? Outcome::stuck : blame();
   MechanicalState next = m_state;
   const double part = search(m_step, next);
-  const Outcome outcome = part > 0.0 ? take(part, next) : blame();
-  if (outcome != Outcome::ongoing) return outcome;
-  return ++m_iteration < m_options.max_iterations ? outcome : Outcome::out_of_iterations;
+  return part > 0.0 ? take(part, next) : blame();
+}
+
+// Back to where the energy was lower, to search along its step as ever.
+Newton::Outcome Newton::return_from_credit() {
+  m_state = std::move(m_credit->from);
+  m_credit.reset();
+  m_potential.reset();
+  m_definite = false;
+  m_fresh = true;
+  m_last = m_previous = std::numeric_limits<double>::infinity();
+  refresh();
+  measure();
+  return Outcome::ongoing;
 }
 
 // No part of the step would do: perhaps a stale factor was to blame, or an indefinite tangent.

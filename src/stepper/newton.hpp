@@ -71,6 +71,13 @@ class Newton {
     double weight = 0.0;                // mN; of open ties in the merit
   };
 
+  // A full step that raised the energy, taken because the next ones may lower it below what it was.
+  struct Credit {
+    MechanicalState from;
+    double open = 0.0;   // uJ above the energy there
+    int since = 0;       // iteration
+  };
+
   void refresh();                                        // forces at m_state
   bool serves_again(bool was_fresh) const;
   bool unchanged(const MechanicalState& start) const;
@@ -87,7 +94,11 @@ class Newton {
   Step direction();
   bool update_active(const Step& step);                  // true: the set changed
   bool find_step();
+  Outcome go_on();
   Outcome blame();
+  bool borrow(double change);
+  void pay(double change);
+  Outcome return_from_credit();
   Outcome take(double part, MechanicalState& next);
   double length_of_step(double part) const;
   double potential(const Points& u, const std::vector<DeviceMotion>& motions) const;
@@ -150,6 +161,8 @@ class Newton {
   int m_iteration = 0;                  // since begin()
   double m_softest_scale = 0.0;   // mN; that of the residual, with the floor of the softest tissue
   double m_last = 0.0, m_previous = 0.0;   // mm; lengths of the last two steps
+  bool m_may_borrow = false;
+  std::optional<Credit> m_credit;
 };
 
 }  // namespace brainshift

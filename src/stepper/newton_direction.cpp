@@ -9,7 +9,7 @@ namespace brainshift {
 namespace {
 
 // Changes of the active set within one linearisation; more are left to the next iteration.
-constexpr int max_active_set_changes = 8;
+constexpr int max_active_set_changes = 4;
 
 // A step this many diameters long: the tangent is singular, and only rounding let it be factored.
 constexpr double length_of_no_step = 1e3;
@@ -96,7 +96,7 @@ bool Newton::factorise(const Reduction& reduction, bool singular) {
 // The factor at hand with the rows and forces of today.
 void Newton::begin_iteration() {
   Stopwatch watch(m_report.seconds_factor);
-  m_linearised->begin(Reduction(m_eq.blocks().count(), rows_of(m_factored), &m_linearised->factored()), m_load);
+  m_linearised->begin(rows_of(m_factored), rows_of(m_active), m_state.multipliers, m_load);
 }
 
 // The factor at hand for the active set; false: it does not do.

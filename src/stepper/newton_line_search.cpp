@@ -66,6 +66,20 @@ double Newton::potential(const Points& u, const std::vector<DeviceMotion>& motio
   return m_euler ? stored + m_euler->potential(u, motions) : stored;
 }
 
+// Once in a search for balance the first full step may raise the energy. Where a slender body turns far the
+// linearised step stretches it, and the next one takes that back; cut short, the way there is far longer.
+// docs/decisions/speed.md
+bool Newton::borrow(double change) {
+  if (!m_may_borrow || m_lost_stability || m_definite || !std::isfinite(change)) return false;
+  m_may_borrow = false;
+  m_credit = Credit{m_state, 0.0, m_iteration};
+  return true;
+}
+
+void Newton::pay(double change) {
+  if (m_credit && (m_credit->open += change) < 0.0) m_credit.reset();
+}
+
 // Backtracking on the change of energy (and of what open ties and slip add to the merit); returns the
 // part of the step taken, 0 if none would do.
 double Newton::search(const Step& step, MechanicalState& next) {
@@ -99,7 +113,9 @@ double Newton::search(const Step& step, MechanicalState& next) {
     // Rounding of energies, and of the gaps of contacts and ties that are as closed as they can be.
     const double noise = 1e-12 * (std::abs(energy0) + std::abs(energy1) + std::abs(work)) +
                          closed_gap * m_eq.mesh().diameter() * pressed;
-    if (sufficient_decrease(change, part * step.predicted, noise)) {
+    const bool decreased = sufficient_decrease(change, part * step.predicted, noise);
+    if (decreased || (attempt == 0 && borrow(change))) {
+      pay(change);
       m_active = touched;
       m_potential = energy1;
       return part;

@@ -12,12 +12,17 @@ void dtrsm_(const char* side, const char* uplo, const char* transa, const char* 
 void dgemm_(const char* transa, const char* transb, const int* m, const int* n, const int* k,
             const double* alpha, const double* a, const int* lda, const double* b, const int* ldb,
             const double* beta, double* c, const int* ldc);
+void dtrsv_(const char* uplo, const char* trans, const char* diag, const int* n, const double* a, const int* lda,
+            double* x, const int* incx);
+void dgemv_(const char* trans, const int* m, const int* n, const double* alpha, const double* a, const int* lda,
+            const double* x, const int* incx, const double* beta, double* y, const int* incy);
 }
 
 namespace brainshift {
 namespace {
 
 constexpr double one = 1.0, zero = 0.0;
+constexpr int few = 4;   // columns that are quicker one by one: the dense kernels copy a supernode first
 
 struct Supernode {
   int first, columns, rows;   // rows: those of its columns, then those below
@@ -49,6 +54,33 @@ class Supernodes {
   const double* m_x;
   std::vector<int> m_of;   // columns
 };
+
+// y := y L^-T with the triangle of a supernode; y: a right side per row.
+void solve_triangle(const Supernode& node, Eigen::MatrixXd& y) {
+  const int width = int(y.rows());
+  if (width > few) {
+    dtrsm_("R", "L", "T", "N", &width, &node.columns, &one, node.x, &node.rows, y.data(), &width);
+    return;
+  }
+  for (int a = 0; a < width; ++a) {
+    dtrsv_("L", "N", "N", &node.columns, node.x, &node.rows, y.data() + a, &width);
+  }
+}
+
+// y B^T with the rows B of a supernode below its triangle.
+void multiply_below(const Supernode& node, const Eigen::MatrixXd& y, Eigen::MatrixXd& below) {
+  const int width = int(y.rows()), down = node.rows - node.columns;
+  below.resize(width, down);
+  const double* B = node.x + node.columns;
+  if (width > few) {
+    dgemm_("N", "T", &width, &down, &node.columns, &one, y.data(), &width, B, &node.rows, &zero, below.data(),
+           &width);
+    return;
+  }
+  for (int a = 0; a < width; ++a) {
+    dgemv_("N", &down, &node.columns, &one, B, &node.rows, y.data() + a, &width, &zero, below.data() + a, &width);
+  }
+}
 
 using Columns = std::vector<int>;
 
@@ -164,12 +196,10 @@ void FactorColumns::append(const cholmod_factor& factor, const SparseColumns& C)
       rest.forget(node.first + k);
     }
     for (int& c : part.columns) c += before;
-    dtrsm_("R", "L", "T", "N", &width, &node.columns, &one, node.x, &node.rows, part.y.data(), &width);
+    solve_triangle(node, part.y);
     multiply(part, s);
     if (down > 0) {
-      below.resize(width, down);
-      dgemm_("N", "T", &width, &down, &node.columns, &one, part.y.data(), &width, node.x + node.columns,
-             &node.rows, &zero, below.data(), &width);
+      multiply_below(node, part.y, below);
       for (int k = 0; k < down; ++k) {
         Eigen::VectorXd& row = rest[node.row[node.columns + k]];
         for (int a = 0; a < width; ++a) row[active[std::size_t(a)]] -= below(a, k);

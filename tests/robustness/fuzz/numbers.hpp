@@ -11,6 +11,7 @@ class Numbers {
  public:
   Numbers(const std::uint8_t* data, std::size_t size) : m_at(data), m_end(data + size) {}
 
+  bool more() const { return m_at < m_end; }
   std::uint8_t byte() { return m_at < m_end ? *m_at++ : 0; }
   // Most are multiples of 1/16 within 8 of zero.
   double number() {

@@ -32,6 +32,11 @@ TEST(Fuzz, EveryInputFoundSoFarIsReplayed) {
   replay(corpus + "/vtp", fuzz_vtp);
   replay(corpus + "/mcp", fuzz_mcp);
   replay(corpus + "/mesh", fuzz_mesh);
+  replay(corpus + "/snapshot", fuzz_snapshot);
+  replay(corpus + "/recording", fuzz_recording);
+#ifdef WITH_CAPI
+  replay(corpus + "/calls", fuzz_calls);
+#endif
 }
 
 TEST(Fuzz, TheFixturesGoThroughBothReaders) {
@@ -41,15 +46,20 @@ TEST(Fuzz, TheFixturesGoThroughBothReaders) {
 }
 
 // Noise: the same for every run.
-TEST(Fuzz, ProblemsMadeOfNoise) {
+void run_on_noise(int count, std::size_t most, const std::vector<Target>& targets) {
   std::mt19937 random(2026);
-  for (int i = 0; i < 3000; ++i) {
-    std::string bytes(20 + random() % 60, '\0');
+  for (int i = 0; i < count; ++i) {
+    std::string bytes(20 + random() % most, '\0');
     for (char& c : bytes) c = char(random());
-    run(fuzz_mcp, bytes);
-    run(fuzz_mesh, bytes);
+    for (Target target : targets) run(target, bytes);
   }
 }
+
+TEST(Fuzz, ProblemsMadeOfNoise) { run_on_noise(3000, 60, {fuzz_mcp, fuzz_mesh}); }
+TEST(Fuzz, BytesTamperedWith) { run_on_noise(2000, 60, {fuzz_snapshot, fuzz_recording}); }
+#ifdef WITH_CAPI
+TEST(Fuzz, CallsInAnyOrder) { run_on_noise(1000, 600, {fuzz_calls}); }
+#endif
 
 }  // namespace
 }  // namespace brainshift::test

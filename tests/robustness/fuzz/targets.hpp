@@ -12,5 +12,8 @@ void fuzz_vtp(const std::uint8_t* data, std::size_t size);
 void fuzz_mcp(const std::uint8_t* data, std::size_t size);  // as a complementarity problem
 void fuzz_mesh(const std::uint8_t* data,
                std::size_t size);  // as nodes and tets, and a solve on them
+void fuzz_snapshot(const std::uint8_t* data, std::size_t size);   // as what was done to one, sealed again
+void fuzz_recording(const std::uint8_t* data, std::size_t size);
+void fuzz_calls(const std::uint8_t* data, std::size_t size);      // as calls of the C face
 
 }  // namespace brainshift::test

@@ -1,0 +1,89 @@
+// Snapshots and recordings that were tampered with and sealed again: the checksum does not help there.
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+
+#include "brainshift/stepper.hpp"
+#include "robustness/fuzz/numbers.hpp"
+#include "robustness/fuzz/targets.hpp"
+#include "stepper/bytes.hpp"
+#include "support/scenes.hpp"
+
+namespace brainshift::test {
+namespace {
+
+constexpr std::size_t head = 32, seal = 8;   // of the envelope
+
+// A block with a lead in fluid in a box, after a step.
+Stepper in_use() {
+  StepperOptions options;
+  options.max_iterations = 6;
+  options.smallest_load_step = 0.5;
+  Stepper stepper(busy_scene(2, 0.3), options);
+  stepper.insert(make_device("3389", 30.0), {{14.3, 15.7, 9.1}, Vec3::UnitZ()}, Hold{0.0, 28.0});
+  stepper.csf().set_lost_volume(0, 100.0);
+  stepper.step(0.1);
+  return stepper;
+}
+
+// Bytes of `good` overwritten as `data` says, three for each: a place, and another value there; words of
+// special numbers for some. Then its end cut off, for one in sixteen. Sealed.
+Bytes tampered(Bytes bytes, Numbers& numbers) {
+  const std::size_t content = bytes.size() - head - seal;
+  const int cut = numbers.byte();
+  while (numbers.more()) {
+    const std::size_t place = (numbers.byte() + 256u * numbers.byte()) % (content / 8) * 8 + head;
+    const std::uint8_t way = numbers.byte();
+    if (way < 200) {
+      bytes[place + way % 8] = numbers.byte();
+      continue;
+    }
+    const double value = numbers.number();
+    std::uint64_t bits = std::uint64_t(std::int64_t(way) - 228);   // a count, or a number
+    if (way >= 228) std::memcpy(&bits, &value, sizeof bits);
+    for (int i = 0; i < 8; ++i) bytes[place + std::size_t(i)] = std::uint8_t(bits >> 8 * i);
+  }
+  const std::size_t left = cut < 16 ? content * std::size_t(cut) / 16 : content;
+  bytes.resize(head + left + seal);
+  for (int i = 0; i < 8; ++i) bytes[24 + std::size_t(i)] = std::uint8_t(left >> 8 * i);
+  const std::uint64_t sum = checksum(bytes.data(), head + left);
+  for (int i = 0; i < 8; ++i) bytes[head + left + std::size_t(i)] = std::uint8_t(sum >> 8 * i);
+  return bytes;
+}
+
+void go_on(Stepper& stepper) {
+  const SolveReport report = stepper.step(0.1);
+  if (report.converged() && !stepper.displacement().allFinite()) std::abort();
+  if (!report.converged() && report.message.empty()) std::abort();
+}
+
+}  // namespace
+
+// One in 64 of those that are taken goes on with a step.
+void fuzz_snapshot(const std::uint8_t* data, std::size_t size) {
+  static Stepper stepper = in_use();
+  static const std::shared_ptr<const Stepper::Snapshot> before = stepper.snapshot();
+  static const Bytes good = bytes_of(*before);
+  Numbers numbers(data, size);
+  const bool step = numbers.byte() % 64 == 0;
+  try {
+    stepper.restore(stepper.read_snapshot(tampered(good, numbers)));
+    if (step) go_on(stepper);
+  } catch (const Error&) {
+  }
+  stepper.restore(before);
+  if (step && bytes_of(*stepper.snapshot()) != good) std::abort();
+}
+
+void fuzz_recording(const std::uint8_t* data, std::size_t size) {
+  static const Bytes good = in_use().record();
+  Numbers numbers(data, size);
+  const bool step = numbers.byte() % 64 == 0;
+  try {
+    Stepper stepper = Stepper::replay(tampered(good, numbers));
+    if (step) go_on(stepper);
+  } catch (const Error&) {
+  }
+}
+
+}  // namespace brainshift::test

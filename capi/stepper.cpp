@@ -78,6 +78,17 @@ brs_status brs_stepper_options_init(brs_stepper_options* options, int64_t struct
   return init(options, struct_size, options_defaults());
 }
 
+brs_status brs_stepper_options_within(brs_mesh* mesh, double accuracy, brs_stepper_options* options) {
+  return guard(mesh, [&](brs_mesh& m) {
+    brs_stepper_options given = read(options, options_defaults(), "options");
+    const StepperOptions loose = within(accuracy, m.value);
+    given.residual_tolerance = loose.residual_tolerance;
+    given.complementarity_tolerance = loose.complementarity_tolerance;
+    given.correction_tolerance = loose.correction_tolerance;
+    write(options, given, "options");
+  });
+}
+
 brs_status brs_stepper_create(brs_scene* scene, const brs_stepper_options* options,
                               brs_stepper** stepper) {
   return create(scene, stepper, "stepper", [&](brs_scene& s) {

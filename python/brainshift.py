@@ -938,6 +938,8 @@ _library.brs_device_describe.restype = c_int32
 _library.brs_device_describe.argtypes = [c_void_p, POINTER(DeviceInfo)]
 _library.brs_stepper_options_init.restype = c_int32
 _library.brs_stepper_options_init.argtypes = [POINTER(StepperOptions), c_int64]
+_library.brs_stepper_options_within.restype = c_int32
+_library.brs_stepper_options_within.argtypes = [c_void_p, c_double, POINTER(StepperOptions)]
 _library.brs_stepper_create.restype = c_int32
 _library.brs_stepper_create.argtypes = [c_void_p, POINTER(StepperOptions), POINTER(c_void_p)]
 _library.brs_stepper_destroy.restype = c_int32
@@ -1273,6 +1275,15 @@ class Mesh(Handle):
         faces, capacity = np.empty(count.value, dtype=c_int32), count.value
         self._call('brs_mesh_faces', self, region, _pointer(dry_nodes, c_int32), 0 if dry_nodes is None else len(dry_nodes), _pointer(faces, c_int32), capacity, byref(count))
         return faces
+
+    def stepper_options_within(self, accuracy):
+        """Tolerances for which what a solve leaves open moves no node of the mesh by more than about `accuracy`
+        (mm, > 0). options: after its _init; the three tolerances are written. INVALID_ARGUMENT, STRUCT_SIZE.
+        """
+        options = StepperOptions()
+        options._owner = self
+        self._call('brs_stepper_options_within', self, accuracy, byref(options))
+        return options
 
 
 class Surface(Handle):

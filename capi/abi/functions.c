@@ -91,6 +91,7 @@ BRS_API brs_status brs_device_table(brs_context* context, int32_t index, brs_dev
 BRS_API brs_status brs_device_info_init(brs_device_info* info, int64_t struct_size) { return 0; }
 BRS_API brs_status brs_device_describe(brs_device* device, brs_device_info* info) { return 0; }
 BRS_API brs_status brs_stepper_options_init(brs_stepper_options* options, int64_t struct_size) { return 0; }
+BRS_API brs_status brs_stepper_options_within(brs_mesh* mesh, double accuracy, brs_stepper_options* options) { return 0; }
 BRS_API brs_status brs_stepper_create(brs_scene* scene, const brs_stepper_options* options,
                                       brs_stepper** stepper) { return 0; }
 BRS_API brs_status brs_stepper_destroy(brs_stepper* stepper) { return 0; }

@@ -30,7 +30,7 @@ NAVIGATION = [
                "docs/what_to_leave_out", "docs/file-formats", "examples/own_head/README",
                "examples/head/README", "docs/pictures"]),
     ("Reference", ["docs/theory", "docs/architecture", "docs/c-api", "docs/reference", "docs/decisions/README"]),
-    ("Evidence", ["docs/validation", "docs/verification", "docs/numbers", "docs/stability", "docs/speed", "docs/peers",
+    ("Evidence", ["docs/validation", "docs/verification", "docs/numbers", "docs/stability", "docs/speed", "docs/scaling", "docs/peers",
                   "docs/mutations", "tests/robustness/README"]),
     ("Project", ["CONTRIBUTING", "CHANGELOG", "SECURITY", "THIRD_PARTY"]),
 ]

@@ -72,7 +72,7 @@ void LinearisedTissue::begin(std::vector<NodeRow> held, const std::vector<NodeRo
 
 void LinearisedTissue::take_path() {
   SparseColumns path = m_base->restrict_columns(m_path);
-  const bool many = m_solver.column_count() > path.cols() + columns_of_border;
+  const bool many = m_solver.column_count() > path.cols() + largest_border(path.rows());
   if (many || !same(path, m_path_columns)) {
     m_solver.keep(0);
     m_places.clear();

@@ -87,7 +87,7 @@ MemoryEstimate Stepper::Impl::memory_estimate() {
   const int corners = m_mesh.is_quadratic() ? 10 : 4;
   Bytes64 kept = bytes_of(cache.stiffness) + bytes_of(cache.reduced) + per_node * m_mesh.node_count() +
                  per_corner_of_tet * corners * m_mesh.tet_count() + small_change;
-  // Terms of the fluid's heads and what they move, docs/theory.md (7).
+  // Terms of the fluid's heads (their equations: src/fluid/hydrostatics.hpp) and what they move.
   if (trial.fluid()) kept += 8 * dense(unknowns, m_state.wanted.csf->compartment_count());
   estimate.total = size.factor + kept + std::max(size.work, after);
   estimate.rest = estimate.total - estimate.factor - estimate.border - estimate.compliance;

@@ -244,6 +244,10 @@ inline std::vector<Probe> probes(World& w, Harmless& s, Made& made) {
        [&](void* h) {
          return brs_device_describe(as<brs_device>(h), &s.device_info);
        }},
+      {"brs_stepper_options_within", "mesh",
+       [&](void* h) {
+         return brs_stepper_options_within(as<brs_mesh>(h), 1, &s.stepper_options);
+       }},
       {"brs_stepper_create", "scene",
        [&](void* h) {
          return brs_stepper_create(as<brs_scene>(h), &s.stepper_options, &made.stepper);

@@ -1,6 +1,8 @@
 // Steps in time, the phases of a solve, the time limit, threads and the log.
+#include <cstring>
 #include <limits>
 
+#include "brainshift/stepper.hpp"
 #include "world.hpp"
 
 namespace brainshift::test {
@@ -43,6 +45,24 @@ TEST_F(Solves, PhaseByPhaseEndAtTheSameBits) {
   EXPECT_GT(report.iterations, 0);
   EXPECT_EQ(w.field(BRS_FIELD_DISPLACEMENT), other.field(BRS_FIELD_DISPLACEMENT));
   EXPECT_EQ(phase(), BRS_PHASE_IDLE);
+}
+
+TEST_F(Solves, AnAccuracyGivesTheTolerancesOfTheCppFace) {
+  brs_stepper_options options;
+  w.good(brs_stepper_options_init(&options, sizeof options));
+  options.max_iterations = 17;
+  w.good(brs_stepper_options_within(w.mesh, 0.5, &options));
+  const StepperOptions loose = within(0.5, Mesh(w.block.points, w.block.tets));
+  EXPECT_EQ(options.residual_tolerance, loose.residual_tolerance);
+  EXPECT_EQ(options.complementarity_tolerance, loose.complementarity_tolerance);
+  EXPECT_EQ(options.correction_tolerance, loose.correction_tolerance);
+  EXPECT_EQ(options.max_iterations, 17);
+  const brs_stepper_options before = options;
+  for (const double accuracy : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_EQ(brs_stepper_options_within(w.mesh, accuracy, &options), BRS_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(w.message().find("accuracy"), std::string::npos) << w.message();
+    EXPECT_EQ(std::memcmp(&options, &before, sizeof options), 0);
+  }
 }
 
 TEST_F(Solves, MemoryIsKnownBeforeTheyBeginAndWhateverHasBeenDone) {

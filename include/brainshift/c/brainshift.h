@@ -441,6 +441,9 @@ typedef struct brs_stepper_options {
 } brs_stepper_options;
 
 BRS_API brs_status brs_stepper_options_init(brs_stepper_options* options, int64_t struct_size);
+/* Tolerances for which what a solve leaves open moves no node of the mesh by more than about `accuracy`
+ * (mm, > 0). options: after its _init; the three tolerances are written. INVALID_ARGUMENT, STRUCT_SIZE. */
+BRS_API brs_status brs_stepper_options_within(brs_mesh* mesh, double accuracy, brs_stepper_options* options);
 
 /* Copies the scene, which may be changed or destroyed afterwards. options: NULL for the defaults.
  * Errors name what is wrong with the scene: INVALID_ARGUMENT, EMPTY, INDEX_OUT_OF_RANGE,

@@ -49,7 +49,7 @@ def panel(axis, title, along, up, logarithmic=True):
         axis.set_xscale("log")
         axis.set_yscale("log")
         for scale in (axis.xaxis, axis.yaxis):
-            scale.set_major_locator(LogLocator(subs=(1, 2, 5)))
+            scale.set_major_locator(LogLocator(subs=(1,) if scale is axis.xaxis else (1, 2, 5)))
             scale.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
             scale.set_minor_formatter(NullFormatter())
     return axis
@@ -57,7 +57,7 @@ def panel(axis, title, along, up, logarithmic=True):
 
 def against(axis, rows, title, at, logarithmic=True):
     """Time on the left, memory on the right."""
-    panel(axis, f"time and memory against {title}", title, "CPU, yardsticks", logarithmic)
+    panel(axis, title, title, "CPU, yardsticks", logarithmic)
     x = [at(r) for r in rows]
     axis.plot(x, [r["yardsticks"] for r in rows], "o-", color=TIME)
     axis.yaxis.label.set_color(TIME)

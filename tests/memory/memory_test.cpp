@@ -3,6 +3,7 @@
 // the border it counts is the largest there may be.
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -45,11 +46,9 @@ void compare_block(const std::string& what, const Scene& scene, int leads) {
 
 TEST(MemoryEstimate, OfABlockWithContactsAndLeads) {
   SKIP_UNLESS_COUNTED();
-  for (const int cells : {6, 12, 17}) {
-    for (const int leads : {0, 4}) {
-      compare_block(std::to_string(cells) + " cells, " + std::to_string(leads) + " leads",
-                    walled_block(cells, 2000), leads);
-    }
+  for (const auto& [cells, leads] : {std::pair{6, 0}, {6, 4}, {12, 0}, {12, 4}, {17, 0}}) {
+    compare_block(std::to_string(cells) + " cells, " + std::to_string(leads) + " leads",
+                  walled_block(cells, 2000), leads);
   }
 }
 

@@ -139,6 +139,34 @@ void complementarity(benchmark::State& state, McpMethod method) {
   }
 }
 
+// The rows that tie a lead to tissue every so often, on one side: what it gives way by, held at its wire, and
+// what the tissue does. The lead's part makes a far push at the wire felt at the tip, and sweeps crawl. To a
+// tolerance of ten to the minus second argument; what they leave open is shown.
+void complementarity_of_a_lead(benchmark::State& state, McpMethod method) {
+  constexpr double length = 80.0, bending = 5000.0, tissue = 0.02, reach = 10.0;   // mm, mN mm^2, mm/mN, mm
+  const auto n = Eigen::Index(state.range(0));
+  Eigen::MatrixXd M(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const double x = length * double(i + 1) / double(n), y = length * double(j + 1) / double(n);
+      const double near = std::min(x, y), far = std::max(x, y);   // from the wire: a cantilever
+      M(i, j) = near * near * (3.0 * far - near) / (6.0 * bending) + tissue * std::exp(-(far - near) / reach);
+    }
+  }
+  const Eigen::VectorXd q = Eigen::VectorXd::NullaryExpr(n, [n](Eigen::Index i) {
+    return std::sin(6.0 * double(i) / double(n)) - 0.3;   // mm, gaps
+  });
+  const double inf = std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd lower = Eigen::VectorXd::Zero(n), upper = Eigen::VectorXd::Constant(n, inf);
+  McpOptions options;
+  options.method = method;
+  options.tolerance = std::pow(10.0, -double(state.range(1)));
+  McpReport report;
+  for (auto _ : state) report = solve_mcp(M, q, lower, upper, options).report;
+  state.counters["iterations_of_method"] = report.iterations;
+  state.counters["left_open"] = report.residual;
+}
+
 // Tangent, factor and one solve of a lead bent a little.
 void beam(benchmark::State& state) {
   const BeamDevice lead = BeamDevice::straight("lead", 300.0, Index(state.range(0)),
@@ -180,4 +208,10 @@ BENCHMARK_CAPTURE(complementarity, newton, brainshift::McpMethod::newton)
     ->Arg(30)->Arg(100)->Arg(300)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(complementarity, gauss_seidel, brainshift::McpMethod::gauss_seidel)
     ->Arg(30)->Arg(100)->Arg(300)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(complementarity_of_a_lead, newton, brainshift::McpMethod::newton)
+    ->ArgsProduct({{30, 100}, {3, 6, 10}})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(complementarity_of_a_lead, pivoting, brainshift::McpMethod::pivoting)
+    ->ArgsProduct({{30, 100}, {10}})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(complementarity_of_a_lead, gauss_seidel, brainshift::McpMethod::gauss_seidel)
+    ->ArgsProduct({{30, 100}, {3, 6, 10}})->Unit(benchmark::kMillisecond);
 BENCHMARK(beam)->Arg(40)->Arg(400)->Unit(benchmark::kMillisecond);

@@ -62,7 +62,7 @@ def main():
     if options.write_docs:
         page = ["# Speed", "", "Written by `bench/speed/run --write-docs`. A yardstick is one numeric factor and one",
                 "solve of the stiffness of both halves of the medium head as one system, one thread, in the",
-                "same run.", "", *lines]
+                "same run. Iterations: of Newton's method, for complementarity of the method named.", "", *lines]
         (ROOT / "docs/speed.md").write_text("\n".join(page) + "\n")
 
 
@@ -70,11 +70,13 @@ def table(result):
     c = result["context"]
     lines = [f"{c['head']}: {c['nodes']} nodes, {c['tets']} tets. {c['processor']}, {c['num_cpus']} cores; "
              f"{c['blas'].strip()}; compiler {c['compiler']}.", "",
-             "| | ms | yardsticks | Newton iterations | factors |", "|---|---|---|---|---|"]
+             "| | ms | yardsticks | iterations | factors | left open |", "|---|---|---|---|---|---|"]
     for b in result["benchmarks"]:
         name = re.sub(r"/iterations:\d+|/real_time", "", b["name"])
-        work = [f"{b[k]:.0f}" if k in b else "" for k in ("iterations_of_newton", "factorisations")]
-        lines.append(f"| {name} | {b['milliseconds']:.4g} | {b['yardsticks']:.3g} | {work[0]} | {work[1]} |")
+        work = [f"{b[k]:.0f}" for k in ("iterations_of_newton", "iterations_of_method") if k in b] or [""]
+        work.append(f"{b['factorisations']:.0f}" if "factorisations" in b else "")
+        work.append(f"{b['left_open']:.1e}" if "left_open" in b else "")
+        lines.append(f"| {name} | {b['milliseconds']:.4g} | {b['yardsticks']:.3g} | {' | '.join(work)} |")
     return lines
 
 

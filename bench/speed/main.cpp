@@ -31,6 +31,8 @@ int main(int argc, char** argv) {
     benchmark::AddCustomContext("tets", std::to_string(bench::head().brain.tet_count()));
     benchmark::AddCustomContext("blas", openblas_get_config ? openblas_get_config() : "not OpenBLAS");
     benchmark::AddCustomContext("compiler", __VERSION__);
+    // A machine that others use does not keep its speed: the yardstick counts from before and after.
+    benchmark::RegisterBenchmark("yardstick_after", bench::yardstick)->Unit(benchmark::kMillisecond);
     benchmark::RunSpecifiedBenchmarks();
   } catch (const std::exception& e) {
     std::fprintf(stderr, "bench_speed: %s\n", e.what());

@@ -15,6 +15,7 @@ Groups (default: core):
          Doxygen and Sphinx for the reference and the site, and what draws pictures and reports, with Chromium to look at them
   data   what examples/head needs to make the head anew: volumes, CGAL, Python packages
   own_head  what examples/own_head needs: CGAL, Python packages (nibabel, VTK)
+  python what python/brainshift.py needs: numpy
   fuzz   clang with libFuzzer and clang-tidy, for tests/robustness
   docs   what draws pictures, charts and reports: VTK, matplotlib, a virtual X server
   site   what makes the site of documents: Sphinx with MyST, Doxygen
@@ -73,6 +74,10 @@ python3-numpy|python:numpy|numpy
 python3-scipy|python:scipy|scipy
 python3-skimage|python:skimage|scikit-image
 python3-vtk9|python:vtk|VTK 9 for Python
+END
+      ;;
+    python) cat <<'END'
+python3-numpy|python:numpy|numpy
 END
       ;;
     fuzz) cat <<'END'
@@ -239,8 +244,8 @@ main() {
   for group in "$@"; do
     case "$group" in
       -h | --help) usage; exit 0 ;;
-      core | test | data | own_head | fuzz | docs | site | bench | peers) ;;
-      *) echo "install-deps: unknown group '$group'; known: core test data own_head fuzz docs site bench peers" >&2; exit 2 ;;
+      core | test | data | own_head | python | fuzz | docs | site | bench | peers) ;;
+      *) echo "install-deps: unknown group '$group'; known: core test data own_head python fuzz docs site bench peers" >&2; exit 2 ;;
     esac
   done
   [ $# -gt 0 ] || set -- core

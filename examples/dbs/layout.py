@@ -35,7 +35,7 @@ def stage_title(stage):
     return f"Stage {stage['stage']}: {stage['title']}"
 
 
-def fluid_words(scene, stage):
+def fluid_words(scene, stage, between="   |   "):
     """Air and level of each side; levels count from the full fluid of stage 0."""
     words = []
     for side in ("right", "left"):
@@ -43,7 +43,7 @@ def fluid_words(scene, stage):
         fallen = scene.stages[0]["sides"][side]["level_mm"] - s["level_mm"]
         words.append(f"{side}: {s['air_mL']:.1f} mL of air, level {fallen:.1f} mm lower" if s["open"]
                      else f"{side}: closed, full")
-    return "   |   ".join(words)
+    return between.join(words)
 
 
 def lead_words(stage, side):
@@ -254,10 +254,10 @@ def shift_page(scene, options):
     figure = plt.figure(figsize=(5.0 * len(chosen), 11.3))
     for i, (stage, words) in enumerate(chosen):
         left, wide = i / len(chosen), 1.0 / len(chosen)
-        figure.text(left + 0.5 * wide, 0.975, f"({'abc'[i]}) {words}", ha="center", fontsize=14,
+        figure.text(left + 0.5 * wide, 0.980, f"({'abc'[i]}) {words}", ha="center", fontsize=14,
                     fontweight="bold")
-        figure.text(left + 0.5 * wide, 0.953, f"{stage_title(stage)}\n{fluid_words(scene, stage)}", ha="center",
-                    va="top", fontsize=9)
+        figure.text(left + 0.5 * wide, 0.966, "\n".join((stage_title(stage), fluid_words(scene, stage, "\n"))),
+                    ha="center", va="top", fontsize=9)
         for j, view in enumerate((scene.front(), scene.axial(options.axial))):
             axis = figure.add_axes([left + 0.01, 0.505 - 0.40 * j, wide - 0.02, 0.40])
             draw_panel(axis, scene, view, stage, view.title)

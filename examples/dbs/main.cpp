@@ -82,6 +82,7 @@ int run(const dbs::Options& options) {
     files.add(stages);
     if (!result.report.converged()) break;
   }
+  if (!stages.empty()) print_stage_notes();
   print_electrodes(stages);
   // 4. What is left to look at.
   const bool failed = !stages.empty() && !stages.back().report.converged();

@@ -94,6 +94,14 @@ void print_stage(const StageResult& s) {
   std::fflush(stdout);
 }
 
+void print_stage_notes() {
+  std::printf("\n-dV: volume the brain has lost; below 0 it has swollen, as less fluid presses on it. Air and "
+              "swelling\ntogether take the place of the fluid that is lost. Surface: largest motion of a half's "
+              "outside. Mid: mean\nmotion of the midline beside the falx, to the right. From contacts to min J, "
+              "the certificate of balance:\nrows in contact, deepest penetration, Newton iterations, relative "
+              "residual and complementarity, smallest\ndet F of a tet. s: seconds.\n");
+}
+
 void print_interrupt(const std::vector<StageResult>& finished, const Stage& stage) {
   std::printf("interrupted in stage %s (%s); ", stage.label.c_str(), stage.title.c_str());
   if (finished.empty()) {

@@ -12,6 +12,8 @@ namespace dbs {
 void print_head(const Head& head, const Options& options);
 void print_table_header();
 void print_stage(const StageResult& stage);
+// What the columns of that table are.
+void print_stage_notes();
 // Tips, bows, forces, and retraction of each electrode from stage to stage.
 void print_electrodes(const std::vector<StageResult>& stages);
 

@@ -7,7 +7,6 @@
 // GRAVITY in parts of the earth's; ACCURACY (mm) as of within(). Both print JSON. Seconds are CPU seconds of
 // one thread, so that they bear a busy machine.
 #include <algorithm>
-#include <ctime>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -17,26 +16,19 @@
 #include <nlohmann/json.hpp>
 
 #include "brainshift/brainshift.hpp"
+#include "clock.hpp"
 #include "linear/spd_solver.hpp"
-#include "stepper/equilibrium.hpp"
+#include "stiffness_at_rest.hpp"
 #include "support/scenes.hpp"
 
 namespace {
 
 using namespace brainshift;
+using bench::Clock;
 
 using Words = std::vector<std::string>;
 
 constexpr double young = 6.0, poisson = 0.45;   // kPa, 1
-
-// CPU seconds between its construction and now.
-class Clock {
- public:
-  double seconds() const { return double(std::clock() - m_begin) / CLOCKS_PER_SEC; }
-
- private:
-  std::clock_t m_begin = std::clock();
-};
 
 Vec3 weight(double gravity) { return {0.0, 0.0, -gravity * standard_gravity}; }
 
@@ -69,18 +61,14 @@ void check(const std::ofstream& file, const std::string& path) {
 
 // One numeric factor and one solve of the bar's stiffness at rest.
 double bare_factor_and_solve(const Scene& scene) {
-  const Equilibrium balance(scene);
-  BlockMatrix K = balance.blocks().make_matrix(), A = K;
-  const Points u = Points::Zero(scene.mesh.node_count(), 3);
-  balance.tangent(u, balance.forces(u), {}, false, K);
-  Reduction(balance.blocks().count(), balance.fixed_rows()).reduce(K, K.mean_diagonal(), A);
+  const BlockMatrix A = bench::stiffness_at_rest(scene);
   const auto solver = make_spd_solver();
   solver->analyse(A);
   Eigen::MatrixXd x = Eigen::MatrixXd::Ones(3 * Eigen::Index(A.blocks()), 1);
   const Clock clock;
   solver->factorise(A);
   solver->solve(x);
-  return clock.seconds();
+  return clock.cpu();
 }
 
 nlohmann::json write_mesh(const Words& words) {
@@ -103,7 +91,7 @@ nlohmann::json solve_in(int increments, double gravity, Stepper& stepper) {
     stepper.set_gravity(weight(gravity * i / increments));
     const SolveReport report = stepper.solve_static();
     if (!report.converged()) throw Error(ErrorCode::internal, report.message);
-    seconds += clock.seconds();
+    seconds += clock.cpu();
     iterations += report.iterations;
     factorisations += report.factorisations;
     smallest = report.smallest_jacobian;

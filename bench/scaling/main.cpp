@@ -10,15 +10,14 @@
 //          branches    head, count: that many other trajectories from one state, all kept
 // bench/scaling/run goes through them all.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "clock.hpp"
 #include "procedure.hpp"
 #include "scaling/resident.hpp"
 #include "speed/rest.hpp"
@@ -27,22 +26,11 @@
 namespace {
 
 using namespace dbs;
+using bench::Clock;
 using nlohmann::json;
 
 constexpr double accuracy = 0.1;   // mm
 constexpr double room = 2.0;       // mm between block and walls
-
-class Clock {
- public:
-  double cpu() const { return double(std::clock() - m_cpu) / CLOCKS_PER_SEC; }
-  double wall() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_wall).count();
-  }
-
- private:
-  std::clock_t m_cpu = std::clock();
-  std::chrono::steady_clock::time_point m_wall = std::chrono::steady_clock::now();
-};
 
 json to_json(const MemoryEstimate& m) {
   return {{"factor", m.factor}, {"border", m.border}, {"compliance", m.compliance}, {"rest", m.rest}, {"total", m.total}};

@@ -1,20 +1,21 @@
 // A clamped bar of tissue, 200 x 40 x 40 mm in 5n x n x n cells of six tets, E 6 kPa, nu 0.45: a scene with
 // published times of other programs. Times are CPU seconds of one thread, so that they bear a busy machine.
 #include <algorithm>
-#include <ctime>
 #include <optional>
 #include <string>
 
 #include <benchmark/benchmark.h>
 
 #include "brainshift/brainshift.hpp"
+#include "clock.hpp"
 #include "linear/spd_solver.hpp"
-#include "stepper/equilibrium.hpp"
+#include "stiffness_at_rest.hpp"
 #include "support/scenes.hpp"
 
 namespace {
 
 using namespace brainshift;
+using bench::Clock;
 
 Scene bar(Index n, Law law) {
   Scene scene{test::make_mesh(test::make_box({200.0, 40.0, 40.0}, 5 * n, n, n)),
@@ -24,15 +25,6 @@ Scene bar(Index n, Law law) {
   scene.constraints.fix("wall", test::nodes_where(scene.mesh, [](const Vec3& x) { return x.x() == 0.0; }));
   return scene;
 }
-
-// CPU seconds between its construction and now.
-class Clock {
- public:
-  double seconds() const { return double(std::clock() - m_begin) / CLOCKS_PER_SEC; }
-
- private:
-  std::clock_t m_begin = std::clock();
-};
 
 void tell(benchmark::State& state, const Stepper& stepper, const SolveReport& report) {
   if (!report.converged()) throw Error(ErrorCode::internal, "no balance: " + report.message);
@@ -45,11 +37,7 @@ void tell(benchmark::State& state, const Stepper& stepper, const SolveReport& re
 // Numeric factor and one solve of its stiffness, and nothing else.
 void bar_factor_and_solve(benchmark::State& state) {
   const Scene scene = bar(Index(state.range(0)), Law::corotational);
-  const Equilibrium balance(scene);
-  BlockMatrix K = balance.blocks().make_matrix(), A = K;
-  const Points u = Points::Zero(scene.mesh.node_count(), 3);
-  balance.tangent(u, balance.forces(u), {}, false, K);
-  Reduction(balance.blocks().count(), balance.fixed_rows()).reduce(K, K.mean_diagonal(), A);
+  const BlockMatrix A = bench::stiffness_at_rest(scene);
   const auto solver = make_spd_solver();
   solver->analyse(A);
   Eigen::MatrixXd x = Eigen::MatrixXd::Ones(3 * Eigen::Index(A.blocks()), 1);
@@ -57,7 +45,7 @@ void bar_factor_and_solve(benchmark::State& state) {
     const Clock clock;
     solver->factorise(A);
     solver->solve(x);
-    state.SetIterationTime(clock.seconds());
+    state.SetIterationTime(clock.cpu());
   }
 }
 
@@ -75,7 +63,7 @@ void time_steps(benchmark::State& state, Stepper& stepper) {
   for (auto _ : state) {
     const Clock clock;
     report = stepper.step(0.01);
-    state.SetIterationTime(clock.seconds());
+    state.SetIterationTime(clock.cpu());
   }
   tell(state, stepper, report);
 }
@@ -114,7 +102,7 @@ void bar_sags(benchmark::State& state) {
       all += report.iterations;
       factors += report.factorisations;
     }
-    state.SetIterationTime(clock.seconds());
+    state.SetIterationTime(clock.cpu());
   }
   tell(state, *stepper, report);
   state.counters["most_in_an_increment"] = most;

@@ -1,30 +1,17 @@
 #include "case.hpp"
 
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <optional>
 #include <utility>
 
 #include "accuracy/refined_head.hpp"
+#include "clock.hpp"
 #include "procedure.hpp"
 
 namespace bench {
 namespace {
 
 using namespace dbs;
-
-class Clock {
- public:
-  double cpu() const { return double(std::clock() - m_cpu) / CLOCKS_PER_SEC; }
-  double wall() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_wall).count();
-  }
-
- private:
-  std::clock_t m_cpu = std::clock();   // of all threads
-  std::chrono::steady_clock::time_point m_wall = std::chrono::steady_clock::now();
-};
 
 Options options_of(const Case& wanted) {
   Options o;

@@ -69,7 +69,8 @@ struct StepperOptions {
 };
 
 // `options` with tolerances for which what a solve leaves open moves no node by more than about
-// `accuracy` (mm): docs/charts/speed_accuracy.md has what is left in fact. Throws invalid_argument if it is not positive.
+// `accuracy` (mm): docs/charts/speed_accuracy.md has what is left in fact. Throws invalid_argument if it
+// is not positive and finite.
 StepperOptions within(double accuracy, const Mesh& mesh, StepperOptions options = {});
 
 enum class Status {

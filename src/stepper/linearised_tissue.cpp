@@ -12,7 +12,8 @@ namespace {
 constexpr Eigen::Index part_of_border = 32, columns_of_border = 1000;
 
 bool same(const SparseColumns& a, const SparseColumns& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() && (a - b).squaredNorm() == 0.0;
+  if (a.rows() != b.rows() || a.cols() != b.cols()) return false;
+  return a.size() == 0 || (a - b).squaredNorm() == 0.0;
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ inline Vec3 mean_row(const Points& values, const Indices& rows) {
 
 // A soft block in fluid on elastic feet, in a narrow case: contact, levels, supports, every kind of
 // force at once. cells: per edge of 30 mm; feet: mN/mm per node.
-inline Scene busy_scene(int cells, double feet) {
+inline Scene busy_scene(int cells, double feet, const SurfaceOptions& options = {}) {
   const Mesh mesh = make_mesh(make_box({30, 30, 30}, cells, cells, cells));
   Scene scene{mesh,
               {{0, Material(Law::corotational, 6.0, 0.45, tissue_density)}},
@@ -105,7 +105,7 @@ inline Scene busy_scene(int cells, double feet) {
               {}};
   const auto wall = box_wall({-0.5, -0.5, -0.2}, {30.5, 30.5, 30.5});
   scene.constraints.obstacle("skull", surface_nodes(mesh),
-                             Surface::cavity(wall.points, wall.triangles));
+                             Surface::cavity(wall.points, wall.triangles, options));
   scene.constraints.support("stem",
                             nodes_where(mesh, [](const Vec3& x) { return x.z() == 0.0; }),
                             Eigen::VectorXd::Constant(1, feet));

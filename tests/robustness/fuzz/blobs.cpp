@@ -20,7 +20,7 @@ Stepper in_use() {
   options.max_iterations = 6;
   options.smallest_load_step = 0.5;
   SurfaceOptions coarse;
-  coarse.grid_spacing = 12.0;
+  coarse.grid_spacing = 8.0;
   Stepper stepper(busy_scene(1, 0.3, coarse), options);
   stepper.insert(make_device("3389", 30.0), {{14.3, 15.7, 9.1}, Vec3::UnitZ()}, Hold{0.0, 28.0});
   stepper.csf().set_lost_volume(0, 100.0);

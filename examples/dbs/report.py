@@ -279,10 +279,13 @@ def main():
             '<meta name="viewport" content="width=device-width, initial-scale=1">'
             f"<title>Brain shift and electrode motion</title><style>{style}</style></head><body>\n" +
             "\n".join(body(scene, options.head, options.results)) + "\n</body></html>\n")
-    options.out.parent.mkdir(parents=True, exist_ok=True)
     part = options.out.with_name(options.out.name + ".part")
-    part.write_text(page, encoding="utf-8")
-    os.replace(part, options.out)
+    try:
+        options.out.parent.mkdir(parents=True, exist_ok=True)
+        part.write_text(page, encoding="utf-8")
+        os.replace(part, options.out)
+    except OSError as error:
+        sys.exit(f"{options.out}: cannot be written ({error.strerror})")
     print(options.out)
 
 

@@ -59,10 +59,10 @@ class Case(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(dir=WORK))
         self.addCleanup(shutil.rmtree, self.folder)
 
-    def assert_refused(self, *arguments, says):
+    def assert_refused(self, *arguments, says, sizes=QUICK):
         """The run ends with 1 and one sentence that holds all of `says`; nothing is left of it."""
         before = sorted(self.folder.iterdir())
-        result = run(*arguments, "--out", self.folder / "out", *QUICK, "--head-only")
+        result = run(*arguments, "--out", self.folder / "out", *sizes, "--head-only")
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
         lines = result.stderr.strip().splitlines()
         self.assertEqual(len(lines), 1, result.stderr)

@@ -72,7 +72,7 @@ class Files(Case):
         path = self.file({"name": "a", "labels": [2]}, {"name": "b", "labels": [[1, 4]]})
         self.assertIn("label 2 stands in", dbs(path).stderr)
         with self.assertRaisesRegex(Problem, "label 2 stands in 'b' and in 'a': keep one of them"):
-            materials.read(path, labels.read_dictionary("freesurfer"), np.arange(60))
+            materials.read(path, labels.read_dictionary("freesurfer"), [2, 3, 4])
 
     def test_what_the_map_does_not_have_or_is_not_meshed(self):
         for entry, says in (({"name": "x", "labels": [99]}, "'x': the map has none of its labels"),
@@ -81,7 +81,7 @@ class Files(Case):
             self.assert_refused(LABELS, "--materials", self.file(entry), says=["materials.json", says])
 
     def test_names_of_the_dictionary_stand_for_their_values(self):
-        path = self.file({"labels": ["Left-Cerebral-White-Matter", 41, "ctx-lh"]})
+        path = self.file({"labels": ["Left-Cerebral-White-Matter", 41, "ctx-lh (aparc)"]})
         found, = materials.read(path, labels.read_dictionary("freesurfer"), [2])
         self.assertEqual(found["labels"][:2], [[2, 2], [41, 41]])
         self.assertIn([1000, 1035], found["labels"])
@@ -111,12 +111,14 @@ class Files(Case):
 
 
 class Effects(Case):
-    def shifts(self, *entries):
+    def shifts(self, *entries, options=()):
         """Motion of the right STN in the whole procedure, by dbs alone."""
-        path = self.folder / "materials.json"
-        path.write_text(json.dumps({"materials": entries}))
+        if entries:
+            path = self.folder / "materials.json"
+            path.write_text(json.dumps({"materials": entries}))
+            options = [*options, "--materials", path]
         out = self.folder / "procedure"
-        subprocess.run([os.environ["DBS"], "--head", HEAD, "--out", out, "--materials", path], check=True,
+        subprocess.run([os.environ["DBS"], "--head", HEAD, "--out", out, *options], check=True,
                        capture_output=True)
         table = json.loads((out / "stages.json").read_text())
         return np.array([stage["shift_mm"]["STN_right"] for stage in table["stages"]]), table
@@ -136,10 +138,24 @@ class Effects(Case):
             self.assertAlmostEqual(part["volume_mL"], volume, places=6)
             self.assertEqual((part["young_kPa"], part["poisson"]), (6.0, 0.45))
 
-    def test_softer_white_matter_moves_further_as_a_softer_brain_does(self):
-        stiff, _ = self.shifts({"labels": WHITE, "young_kPa": 24})
-        soft, _ = self.shifts({"labels": WHITE, "young_kPa": 3})
-        self.assertGreater(np.linalg.norm(soft, axis=1).max(), 1.1 * np.linalg.norm(stiff, axis=1).max())
+    def test_a_material_of_all_labels_is_that_of_the_brain(self):
+        # The cord's column below the brainstem among it, which is as stiff as the tissue above.
+        part = {"labels": [[-2**31 + 1, 2**31 - 1]], "young_kPa": 3, "poisson": 0.4, "density_kg_m3": 1050,
+                "law": "stable_neo_hookean"}
+        found, _ = self.shifts(part)
+        expected, _ = self.shifts(options=["--young", "3", "--poisson", "0.4", "--density", "1050", "--law",
+                                           "stable_neo_hookean"])
+        np.testing.assert_allclose(found, expected, atol=1e-6)
+        usual = [stage["shift_mm"]["STN_right"] for stage in stages_of(WORK / "out/my_head")]
+        self.assertGreater(np.abs(expected - usual).max(), 0.05)
+
+    def test_softer_white_matter_swells_more_when_less_fluid_presses_on_it(self):
+        swelling = []
+        for young in (24, 6, 3):
+            _, table = self.shifts({"labels": WHITE, "young_kPa": young})
+            swelling.append(max(-stage["brain_volume_lost_mL"] for stage in table["stages"]))
+        self.assertEqual(swelling, sorted(swelling))
+        self.assertGreater(swelling[-1], 1.5 * swelling[0])
 
     def test_the_command_of_the_readme_takes_them_with_the_head(self):
         path = self.folder / "materials.json"

@@ -2,6 +2,7 @@
 stopped."""
 import json
 import os
+import pty
 import signal
 import subprocess
 import unittest
@@ -38,6 +39,23 @@ class Progress(Case):
         last = json.loads(result.stderr.splitlines()[-1])
         self.assertEqual(last["event"], "error")
         self.assertIn("none.nii.gz: cannot be read", last["message"])
+
+    def test_a_terminal_gets_one_line_that_is_gone_in_the_end(self):
+        ours, theirs = pty.openpty()
+        process = subprocess.Popen([EXAMPLE / "run", LABELS, "--plan", PLAN, "--out", self.folder / "out", *QUICK],
+                                   stderr=theirs, stdout=subprocess.DEVNULL)
+        os.close(theirs)
+        said = b""
+        try:
+            while part := os.read(ours, 4096):
+                said += part
+        except OSError:  # Linux: the other end is closed
+            pass
+        os.close(ours)
+        self.assertEqual(process.wait(), 0)
+        self.assertNotIn(b"\n", said)
+        self.assertRegex(said, rb"\d\d %, \d+ s left; stage 5, right, cannula out: iteration \d")
+        self.assertTrue(said.endswith(b"\r\x1b[K"), said[-80:])
 
     def test_quiet_is_silent_even_so(self):
         result = run(LABELS, "--out", self.folder / "out", *QUICK, "--head-only", "--quiet", "--progress", "json")

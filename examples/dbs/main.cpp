@@ -7,8 +7,8 @@
 // Build:  cmake -B build -DCMAKE_BUILD_TYPE=Release && cmake --build build --target dbs
 // Run:    examples/run, or build/examples/dbs/dbs --head examples/head/data/medium
 // Output: a line per stage and one per electrode; in --out: stages.json, stages.csv, electrodes.csv,
-//         stages.pvd (ParaView), stage_*.vtu and stage_*.vtp (3D Slicer); with --report a page. After Ctrl-C, of the stages
-//         that were finished; exit status 130.
+//         stages.pvd (ParaView), stage_*.vtu and stage_*.vtp (3D Slicer); with --report a page. After
+//         Ctrl-C, of the stages that were finished, without a page; exit status 130.
 #include <chrono>
 #include <cstdio>
 

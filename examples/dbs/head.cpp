@@ -1,6 +1,7 @@
 #include "head.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
@@ -24,6 +25,13 @@ Indices marked(const io::Field& field) {
     if (field.values(i, 0) != 0.0) nodes.push_back(Index(i));
   }
   return nodes;
+}
+
+Indices labels_of(const io::Grid& brain) {   // the generic head has none
+  for (const io::Field& field : brain.cell_fields) {
+    if (field.name == "label") return to_indices(field);
+  }
+  return {};
 }
 
 Triangles pick(const Triangles& all, const Indices& parts, int part, bool turned) {
@@ -139,6 +147,9 @@ Head read_head(const std::string& folder, double factor, double gap) {
   head.falx = marked(brain.node_field("falx"));
   head.stem = marked(brain.node_field("stem"));
   head.optic = marked(brain.node_field("optic"));
+  head.labels = labels_of(brain);
+  const std::string parts_of = folder + "/materials.json";
+  if (std::filesystem::exists(parts_of)) head.parts = read_parts(parts_of);
   const Indices parts = to_indices(cavity.cell_field("part"));
   const Triangles walls[2] = {pick(cavity.triangles, parts, 1, false),
                               pick(cavity.triangles, parts, 2, false)};

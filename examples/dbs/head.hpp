@@ -5,6 +5,7 @@
 #include <string>
 
 #include "brainshift/brainshift.hpp"
+#include "materials.hpp"
 
 namespace dbs {
 
@@ -31,11 +32,13 @@ struct Head {
   Triangles falx_triangles;         // normals to the right
   std::map<std::string, Vec3> landmarks;   // mm, RAS
   std::map<int, Plan> plans;        // by Side; may be empty
+  Indices labels = {};              // per tet: of the label map it was made from; empty: of none
+  std::vector<Part> parts = {};     // with materials of their own, by those labels
 
   static int region(int side) { return side == left ? 1 : 2; }
 };
 
-// Reads brain.vtu, cavity.vtp, falx.vtp and head.json; throws brainshift::Error naming the file
+// Reads brain.vtu, cavity.vtp, falx.vtp, head.json and, if there, materials.json; throws brainshift::Error naming the file
 // and what is wrong with it.
 // `scale`: of its lengths, about AC; `gap`: mm by which the inner skull is moved outwards.
 Head read_head(const std::string& folder, double scale = 1.0, double gap = 0.0);

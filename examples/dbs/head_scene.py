@@ -9,9 +9,9 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
-from vtk_parts import (SIDES, actor, band, clip, colours, compartment, contact_colours, cut, distance_to,
-                       filled, flat, moved, plane, read, region_of, ring, skull_of, smooth, surface_of,
-                       thickened, where_tentorium)
+from vtk_parts import (SIDES, actor, band, border, clip, colours, compartment, contact_colours, cut,
+                       distance_to, filled, flat, moved, plane, read, region_of, ring, skull_of, smooth,
+                       surface_of, thickened, where_tentorium)
 
 RIM = (0.95, 0.91, 0.83)   # of sawn bone
 BONE, FALX, FLUID, AIR = (0.87, 0.82, 0.72), (0.80, 0.12, 0.12), (0.74, 0.86, 0.98), (0.13, 0.14, 0.18)
@@ -215,9 +215,10 @@ class HeadScene:
                 edge = cut(self.walls[side], self.level(state["level_mm"]))
                 renderer.AddActor(flat(actor(filled(edge), LEVEL, opacity=0.35)))
                 renderer.AddActor(flat(actor(edge, LEVEL, width=2)))
-        falx = actor(smooth(self.falx), FALX, opacity=0.55)
-        falx.SetPosition(*(1.5 * view.towards_eye))   # the far half touches it
-        renderer.AddActor(falx)
+        # Thin, so that the colours behind it are not mixed into others; its border tells where it is.
+        for falx in (actor(smooth(self.falx), FALX, opacity=0.22), flat(actor(border(self.falx), FALX, width=4))):
+            falx.SetPosition(*(1.5 * view.towards_eye))   # the far half touches it
+            renderer.AddActor(falx)
         for target, hole in self.plans.values():
             renderer.AddActor(actor(ring(hole, unit(hole - target), BURR_HOLE), (0.1, 0.1, 0.1)))
         for lead in self.lead_actors(stage):

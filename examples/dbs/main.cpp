@@ -7,14 +7,15 @@
 // Build:  cmake -B build -DCMAKE_BUILD_TYPE=Release && cmake --build build --target dbs
 // Run:    examples/run, or build/examples/dbs/dbs --head examples/head/data/medium
 // Output: a line per stage and one per electrode; in --out: stages.json, stages.csv, electrodes.csv,
-//         stages.pvd (ParaView), stage_*.vtu and stage_*.vtp (3D Slicer). After Ctrl-C, of the stages
-//         that were finished; exit status 130.
+//         stages.pvd (ParaView), stage_*.vtu and stage_*.vtp (3D Slicer); with --report a page. After
+//         Ctrl-C, of the stages that were finished, without a page; exit status 130.
 #include <chrono>
 #include <cstdio>
 
 #include "alternatives.hpp"
 #include "brainshift/io.hpp"
 #include "interrupt.hpp"
+#include "page.hpp"
 #include "progress.hpp"
 #include "results.hpp"
 
@@ -56,11 +57,18 @@ class Files {
   dbs::Series m_brain, m_electrodes;
 };
 
+dbs::Head head_of(const dbs::Options& options) {
+  dbs::Head head = dbs::read_head(options.head, options.scale, options.gap);
+  if (!options.materials.empty()) head.parts = dbs::read_parts(options.materials);
+  return head;
+}
+
 int run(const dbs::Options& options) {
   using namespace dbs;
   const auto start = std::chrono::steady_clock::now();
+  check_page(options);
   // 1. The head: meshes, node sets, landmarks.
-  const Head head = read_head(options.head, options.scale, options.gap);
+  const Head head = head_of(options);
   print_head(head, options);
   // 2. The scene, and a stepper that owns its state.
   ProgressMeter meter(options, 1, stop);
@@ -92,6 +100,8 @@ int run(const dbs::Options& options) {
   if (interrupted_in) print_interrupt(stages, *interrupted_in);
   if (!stages.empty()) files.tell();
   if (interrupted_in) return exit_status_of_interrupt();
+  std::fflush(stdout);
+  write_page(options);
   return failed ? 2 : 0;
 }
 
@@ -108,7 +118,8 @@ void tell_best(const dbs::Options& options, const std::vector<dbs::Alternative>&
 // --plan: no procedure in itself, but what to choose for one.
 int plan(const dbs::Options& options) {
   using namespace dbs;
-  const Head head = read_head(options.head, options.scale, options.gap);
+  check_page(options);
+  const Head head = head_of(options);
   print_head(head, options);
   print_alternative_header();
   ProgressMeter meter(options, most_alternatives(options), stop);

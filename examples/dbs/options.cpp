@@ -123,6 +123,8 @@ int parse(int argc, char** argv, Options& o) {
   app.add_option("--young", o.young, "Young's modulus of the brain, kPa")->capture_default_str();
   app.add_option("--poisson", o.poisson, "Poisson's ratio of the brain")->capture_default_str();
   app.add_option("--density", o.density, "of the brain, kg/m^3")->capture_default_str();
+  app.add_option("--materials", o.materials, "JSON file: parts of the brain by their labels, with materials of "
+                 "their own (default: the head's materials.json, where it has one)");
   app.add_option("--mass", o.mass, "of the meshed brain, kg; sets the density");
   app.add_option("--csf-density", o.csf_density, "of the fluid, kg/m^3")->capture_default_str();
   app.add_option("--right", o.right, "lost on the right: 20mL (fluid), 20mL-air, or 35mm (level)")
@@ -158,6 +160,8 @@ int parse(int argc, char** argv, Options& o) {
                                  "leave the electrodes nearest their targets");
   app.add_flag("--files,!--no-files", o.files, "write results to --out");
   app.add_flag("--vtk,!--no-vtk", o.vtk, "VTU and VTP files among them");
+  app.add_option("--report", o.report, "FILE: one page about the results too, with tables, charts and pictures, "
+                 "that fetches nothing");
   app.add_flag("--estimate", o.estimate, "estimate by how much the mesh has the landmarks wrong (stages.json)");
   app.add_option("--accuracy", o.accuracy,
                  "mm: solves end where less than that is left open; 0: as exact as they can be")

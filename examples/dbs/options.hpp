@@ -31,6 +31,7 @@ struct Options {
   double young = 6.0;             // kPa
   double poisson = 0.45;
   double density = 1040.0;        // kg/m^3
+  std::string materials;          // file for parts of the brain; empty: that of the head, if it has one
   double mass = 0.0;              // kg of the meshed brain; above 0 it sets the density
   double csf_density = 1000.0;    // kg/m^3
   std::string right = "20mL", left = "20mL";
@@ -68,6 +69,7 @@ struct Options {
   int threads = 1;
   double accuracy = 0.0;   // mm, of what the solver leaves open; 0: as exact as it can be
   StepperOptions solver;   // where accuracy is 0; threads and progress are set from here
+  std::string report;             // page about the results; empty: none
   std::string progress = "auto";  // auto (a line on a terminal), line, json, none
   bool falx = true, skull = true, balanced = true, files = true, vtk = true, quiet = false;
 };

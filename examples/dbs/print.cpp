@@ -44,18 +44,32 @@ void print_lead(const StageResult& stage, int side) {
               show(r.since_surgery, &Retraction::tissue).c_str(), d.anchor_force.norm(), track);
 }
 
+// Materials of parts; those of the options are told beside.
+void print_parts(const Head& head, const Options& o) {
+  if (head.parts.empty()) return;
+  const BrainMaterials brain = materials_of(head, o);
+  for (std::size_t i = 0; i < head.parts.size(); ++i) {
+    const Index region = BrainMaterials::region_of_part(i);
+    const Material& found = brain.of(region);
+    std::printf("%s, %.1f mL: %s, E %.3g kPa, nu %.3g, %.0f kg/m^3\n", head.parts[i].name.c_str(),
+                ml(brain.mesh.volume(region)), to_string(found.law()), found.young(), found.poisson(),
+                1e9 * found.density());
+  }
+}
+
 }  // namespace
 
 void print_head(const Head& head, const Options& o) {
-  const double volume = head.brain.volume();
+  const double volume = head.brain.volume(), mass = materials_of(head, o).mass();
   std::printf("preset %s; head %s: %d nodes, %d tets; meshed %.1f mL, %.3f kg at %.0f kg/m^3\n",
               o.preset.c_str(), head.name.c_str(), head.brain.node_count(), head.brain.tet_count(), ml(volume),
-              volume * density_of(head, o), 1e9 * density_of(head, o));
+              mass, 1e9 * mass / volume);
   if (o.scale != 1.0) std::printf("lengths times %.4g about AC; ", o.scale);
   std::printf("%s, E %.3g kPa, nu %.3g; head elevated %.3g degrees; fluid %s; %s; falx %s\n",
               o.law.c_str(), o.young, o.poisson, o.elevation, o.fluid.c_str(),
               o.balanced ? "image in balance with full CSF" : "image free of load",
               o.falx ? "on" : "off");
+  print_parts(head, o);
   std::printf("levels are heights along -gravity from the frame's origin; shifts count from stage 0, "
               "in mm\n");
   if (o.devices) {

@@ -8,21 +8,20 @@ is no display xvfb (cmake/install-deps.sh docs)."""
 import argparse
 import base64
 import hashlib
+import importlib.util
+import json
 import math
 import os
 import platform
+import sys
 from html import escape
 from pathlib import Path
-
-from vtk_parts import need_display
 
 SIDES = ("right", "left")
 # Nothing but what is in the page: the browser is told to refuse the rest.
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 LIMITS = (
-    "Ventricles and sulci of the shipped head are filled with tissue; skull, falx and tentorium are rigid.",
-    "The head is generic. Its tissue has one stiffness everywhere, and that of the living brain is known "
-    "within a factor of several.",
+    "Ventricles and sulci are filled with tissue; skull, falx and tentorium are rigid.",
     "What holds the brain in full fluid beside its stem is a spring per area set by one observation.",
     "A lead in elements wider than itself is felt at their size unless --local-give is set; its bending "
     "stiffness is not published.",
@@ -33,10 +32,21 @@ LIMITS = (
 def parse():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results", type=Path, help="folder written by dbs")
-    parser.add_argument("--head", type=Path, required=True, help="folder of the head")
-    parser.add_argument("--out", type=Path, required=True, help="the page")
-    return parser.parse_args()
+    parser.add_argument("results", type=Path, nargs="?", help="folder written by dbs")
+    parser.add_argument("--head", type=Path, help="folder of the head")
+    parser.add_argument("--out", type=Path, help="the page")
+    parser.add_argument("--check", action="store_true", help="only whether all is there that a page needs")
+    options = parser.parse_args()
+    if not options.check and not (options.results and options.head and options.out):
+        parser.error("needs the results' folder, --head and --out")
+    return options
+
+
+def check_packages():
+    """Ends with a sentence where something is not installed."""
+    missing = [name for name in ("vtk", "matplotlib") if importlib.util.find_spec(name) is None]
+    if missing:
+        sys.exit(f"no Python module {missing[0]} in {sys.executable} (cmake/install-deps.sh docs)")
 
 
 # Tables. A cell says in `data-key` which column of the result files it holds.
@@ -118,6 +128,17 @@ def electrode_table(stages):
     return table("electrodes", head, rows)
 
 
+def material_words(material):
+    return (f"{material['law']}, E {material['young_kPa']:g} kPa, nu {material['poisson']:g}, "
+            f"{material['density_kg_m3']:g} kg/m³; {material['volume_mL']:.1f} mL")
+
+
+def parameters(table):
+    """Options, and materials of parts of the brain."""
+    parts = {f"material of {m['name']}": material_words(m) for m in table.get("materials", [])}
+    return table["options"] | parts
+
+
 def parameter_list(options):
     def show(value):
         if value is None or value == "" or value == []:
@@ -176,6 +197,19 @@ def key_figure(scene):
 
 # The page.
 
+def limits(scene, head):
+    """Of this run, and of all."""
+    if "scale" in json.loads((head / "head.json").read_text(encoding="utf-8")):   # a generic one is scaled
+        yield "The head is generic, nobody's own."
+    else:
+        yield ("The head was made from labels; what they do not show (skull, falx, their distance from the brain) "
+               "was derived, and is told in its head.json.")
+    parts = "but in the parts that stand under the parameters" if scene.table.get("materials") else "everywhere"
+    yield (f"Its tissue has one stiffness {parts}, and that of the living brain is known within a factor of "
+           "several.")
+    yield from LIMITS
+
+
 def unfinished(scene):
     plan, done = scene.table.get("plan", []), [s["stage"] for s in scene.stages]
     left = [label for label in plan if label not in done]
@@ -205,7 +239,7 @@ def versions(scene, results):
     return "<ul>" + "".join(f"<li>{escape(k)}: {escape(v)}</li>" for k, v in rows.items()) + "</ul>"
 
 
-def body(scene, results):
+def body(scene, head, results):
     from charts import all_charts
     charts = "".join(figure(image("svg+xml", drawing.encode(), title), title)
                      for title, drawing in all_charts(scene.stages, list(scene.plans)))
@@ -224,14 +258,19 @@ def body(scene, results):
     yield '<p class="small">Skull drawn 6 mm thick; only its inner table is in the model.</p>'
     for stage in scene.stages:
         yield stage_views(scene, stage)
-    yield "<h2>Parameters</h2>" + parameter_list(scene.table["options"])
+    yield "<h2>Parameters</h2>" + parameter_list(parameters(scene.table))
     yield "<h2>Versions</h2>" + versions(scene, results)
-    yield "<h2>Limits</h2><ul>" + "".join(f"<li>{escape(text)}</li>" for text in LIMITS) + "</ul>"
+    yield ("<h2>Limits</h2><ul>" + "".join(f"<li>{escape(text)}</li>" for text in limits(scene, head)) +
+           "</ul>")
 
 
 def main():
     options = parse()
+    check_packages()
+    from vtk_parts import need_display
     need_display()
+    if options.check:
+        return
     from head_scene import HeadScene
     scene = HeadScene(options.head, options.results)
     style = (Path(__file__).parent / "report.css").read_text()
@@ -239,11 +278,14 @@ def main():
             f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
             '<meta name="viewport" content="width=device-width, initial-scale=1">'
             f"<title>Brain shift and electrode motion</title><style>{style}</style></head><body>\n" +
-            "\n".join(body(scene, options.results)) + "\n</body></html>\n")
-    options.out.parent.mkdir(parents=True, exist_ok=True)
+            "\n".join(body(scene, options.head, options.results)) + "\n</body></html>\n")
     part = options.out.with_name(options.out.name + ".part")
-    part.write_text(page, encoding="utf-8")
-    os.replace(part, options.out)
+    try:
+        options.out.parent.mkdir(parents=True, exist_ok=True)
+        part.write_text(page, encoding="utf-8")
+        os.replace(part, options.out)
+    except OSError as error:
+        sys.exit(f"{options.out}: cannot be written ({error.strerror})")
     print(options.out)
 
 

@@ -57,16 +57,31 @@ Compartment make_compartment(const Head& head, int side) {
   return c;
 }
 
-void hold_stem(const Head& head, const Options& o, ConstraintSet& set) {
+// Per node: mean of Young's modulus over the tets behind the given faces; exact where they have one.
+Eigen::VectorXd young_behind(const BrainMaterials& brain, const Indices& faces) {
+  Eigen::VectorXd young = Eigen::VectorXd::Zero(brain.mesh.node_count()), count = young;
+  for (Index f : faces) {
+    const double here = brain.of_tet(brain.mesh.surface_tets()[std::size_t(f)]).young();
+    for (Index node : brain.mesh.surface().row(f)) {
+      count[node] += 1.0;
+      young[node] += (here - young[node]) / count[node];
+    }
+  }
+  return young;
+}
+
+void hold_stem(const Head& head, const BrainMaterials& brain, const Options& o, ConstraintSet& set) {
   if (o.support.rfind("fixed", 0) == 0) {
     set.fix("brainstem", head.stem);
   } else {
     // The cord below goes on for some 20 mm before its ligaments hold it: a column of the brain's
     // own stiffness, E / 20 mm per area of the cut.
-    const Points area = area_vectors(head.brain, head.brain.faces_within(head.stem));
+    const Indices cut = head.brain.faces_within(head.stem);
+    const Points area = area_vectors(head.brain, cut);
+    const Eigen::VectorXd young = young_behind(brain, cut);
     Eigen::VectorXd stiffness(Eigen::Index(head.stem.size()));
     for (std::size_t i = 0; i < head.stem.size(); ++i) {
-      stiffness[Eigen::Index(i)] = o.young / 20.0 * area.row(head.stem[i]).norm();
+      stiffness[Eigen::Index(i)] = young[head.stem[i]] / 20.0 * area.row(head.stem[i]).norm();
     }
     set.support("brainstem", head.stem, stiffness);
   }
@@ -165,8 +180,8 @@ double density_of(const Head& head, const Options& o) {
 }
 
 Scene make_scene(const Head& head, const Options& o, SceneIds& ids) {
-  const Material tissue(law_from_name(o.law), o.young, o.poisson, density_of(head, o));
-  Scene scene{head.brain, {{Head::region(left), tissue}, {Head::region(right), tissue}}};
+  const BrainMaterials brain = materials_of(head, o);
+  Scene scene{brain.mesh, brain.of_region};
   scene.gravity = gravity_of(imaging_elevation(o));
   scene.balanced_reference = o.balanced;
   const FluidModel model =
@@ -177,7 +192,7 @@ Scene make_scene(const Head& head, const Options& o, SceneIds& ids) {
   Indices twins;
   for (Index node : head.bridge) twins.push_back(head.pair[std::size_t(node)]);
   scene.constraints.tie("bridge", head.bridge, twins);
-  hold_stem(head, o, scene.constraints);
+  hold_stem(head, brain, o, scene.constraints);
   if (!o.still.empty()) {
     const int side = o.still == "left" ? left : right;
     Indices all(std::size_t(head.brain.node_count()));

@@ -16,7 +16,7 @@ double imaging_elevation(const Options& options);
 // Gravity for a head elevated by `degrees` (RAS, mm/s^2), and the height axis that goes with it.
 Vec3 gravity_of(double degrees);
 
-// Of the brain, kg/mm^3: given, or from its mass.
+// Of the brain where no part has its own, kg/mm^3: given, or from its mass.
 double density_of(const Head& head, const Options& options);
 
 Scene make_scene(const Head& head, const Options& options, SceneIds& ids);

@@ -101,6 +101,21 @@ nlohmann::json to_json(const Options& o) {
           {"cannula_depth_mm", o.cannula_depth}, {"elastic_cannula", o.elastic_cannula}};
 }
 
+// Of the parts of the brain that have one of their own.
+nlohmann::json materials_json(const Head& head, const Options& o) {
+  nlohmann::json rows = nlohmann::json::array();
+  if (head.parts.empty()) return rows;
+  const BrainMaterials brain = materials_of(head, o);
+  for (std::size_t i = 0; i < head.parts.size(); ++i) {
+    const Index region = BrainMaterials::region_of_part(i);
+    const Material& m = brain.of(region);
+    rows.push_back({{"name", head.parts[i].name}, {"volume_mL", ml(brain.mesh.volume(region))},
+                    {"law", to_string(m.law())}, {"young_kPa", m.young()}, {"poisson", m.poisson()},
+                    {"density_kg_m3", 1e9 * m.density()}});
+  }
+  return rows;
+}
+
 std::string stages_csv(const std::vector<StageResult>& stages) {
   std::ostringstream out;
   out.precision(10);
@@ -196,6 +211,7 @@ void write_tables(const std::string& folder, const Head& head, const Options& o,
   json["frame"] = "RAS";
   json["gravity_mm_s2"] = to_json(gravity_of(o.elevation));
   json["options"] = to_json(o);
+  json["materials"] = materials_json(head, o);
   for (const Stage& stage : plan) json["plan"].push_back(stage.label);   // finished or not
   for (const StageResult& stage : stages) json["stages"].push_back(to_json(stage));
   write_whole(folder + "/stages.json", json.dump(1) + "\n");

@@ -123,6 +123,15 @@ def smooth(surface):
     return pipe(surface, normals)
 
 
+def border(surface):
+    """Its free edges, as lines."""
+    edges = vtk.vtkFeatureEdges()
+    edges.BoundaryEdgesOn()
+    for other in (edges.FeatureEdgesOff, edges.ManifoldEdgesOff, edges.NonManifoldEdgesOff, edges.ColoringOff):
+        other()
+    return pipe(surface, edges)
+
+
 def thickened(skull, thickness):
     """The outside of a skull whose inner table is given; the tentorium has no bone behind it."""
     result = vtk.vtkPolyData()

@@ -4,7 +4,6 @@ examples/own_head/run, which gives --mesher and --dbs; README.md says what goes 
 import argparse
 import pathlib
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
@@ -17,15 +16,20 @@ sys.path.insert(0, str(ROOT / "examples/head"))  # frame.py and the package chai
 import check_head  # noqa: E402
 import frame as drawn  # noqa: E402
 import generic  # noqa: E402
+import interrupts  # noqa: E402
 import labels  # noqa: E402
+import materials  # noqa: E402
 import placement  # noqa: E402
 import plan as plans  # noqa: E402
 import results  # noqa: E402
 import shape  # noqa: E402
-from chain import build, midsurface  # noqa: E402
+from chain import build, midsurface, vtkxml  # noqa: E402
 from problem import Problem, point  # noqa: E402
+from procedure import operate  # noqa: E402
+from progress import Progress  # noqa: E402
 
 ATTEMPTS = 4  # at a sound mesh, with sulci filled by 1 mm more each time
+REPORT = ["/usr/bin/python3", "-B", ROOT / "examples/dbs/report.py"]
 MARK = "own_head.json"  # in every folder of results: what may be replaced
 
 
@@ -39,6 +43,8 @@ def read_options(arguments):
     parser.add_argument("--plan", nargs="+", default=[], type=pathlib.Path, metavar="FILE",
                         help=".mrk.json files of 3D Slicer, or folders of them: lines are trajectories, "
                              "points are landmarks")
+    parser.add_argument("--materials", type=pathlib.Path, metavar="FILE",
+                        help="JSON: parts of the brain by their labels, with materials of their own")
     parser.add_argument("--out", required=True, type=pathlib.Path, help="folder for head and results")
     parser.add_argument("--edge", type=float, default=6.6, help="mean edge of the tets, mm (default 6.6)")
     parser.add_argument("--spacing", type=float, default=1.0,
@@ -49,6 +55,12 @@ def read_options(arguments):
                         help="stages, by their labels and commas, or all, whose displacement is written as "
                              "NIfTI (default: the end of surgery and the last)")
     parser.add_argument("--head-only", action="store_true", help="make the head, without a procedure")
+    parser.add_argument("--report", type=pathlib.Path, metavar="FILE",
+                        help="write a page about the procedure too: tables, charts, pictures, without a network")
+    parser.add_argument("--progress", choices=("auto", "line", "json", "none"), default="auto",
+                        help="on stderr. auto (default): a line where that is a terminal, else nothing; json: an "
+                             "object per line")
+    parser.add_argument("--quiet", action="store_true", help="no progress, whatever --progress says")
     parser.add_argument("--mesher", required=True, help=argparse.SUPPRESS)
     parser.add_argument("--dbs", help=argparse.SUPPRESS)
     own, _, rest = split(arguments)
@@ -72,7 +84,7 @@ def say(notes):
 
 
 def sorted_labels(options):
-    """Image and parts, checked; notes."""
+    """Image, parts and materials, checked; notes."""
     image = labels.read_map(options.image)
     dictionary = labels.read_dictionary(options.labels)
     parts = labels.sort(image, dictionary, options.labels)
@@ -80,7 +92,10 @@ def sorted_labels(options):
     notes = labels.check_holes(image, parts)
     apart, more = labels.check_connected(image, parts)
     parts.kind[apart] = labels.BACKGROUND
-    return image, parts, notes + more
+    stuff = []
+    if options.materials:
+        stuff = materials.read(options.materials, dictionary, np.unique(image.values))
+    return image, parts, stuff, notes + more
 
 
 def place(image, parts, plan, generic_head):
@@ -145,11 +160,11 @@ def check_way(line, side, target, direction, sheet, anatomy):
         raise Problem(f"{line.source}: the {side} trajectory crosses the midline: move its entry to the side")
 
 
-def make_head(options, work, out):
+def make_head(options, work, out, progress):
     """The head folder; returns what the results need: image, frame and sides."""
     generic_head = generic.Generic(ROOT / "examples/head/data/coarse")
-    print(f"== labels: {options.image}", flush=True)
-    image, parts, notes = sorted_labels(options)
+    progress.begin("labels")
+    image, parts, stuff, notes = sorted_labels(options)
     plan = plans.read(options.plan)
     frame, sheet, rms = place(image, parts, plan, generic_head)
     landmarks = plans.complete(plan, frame, parts.landmarks)
@@ -158,7 +173,7 @@ def make_head(options, work, out):
     plan.notes = []
     say(notes)
     for radius in options.closing + np.arange(ATTEMPTS):
-        print("== skull, falx, mid-surface", flush=True)
+        progress.begin("skull, falx, mid-surface")
         volumes = shape.resample(image, parts, frame, options.spacing)
         anatomy, derived = shape.derive(image, volumes, frame, sheet, rms, landmarks["PC"], generic_head,
                                         parts.landmarks.get("optic_chiasm"), radius)
@@ -167,9 +182,10 @@ def make_head(options, work, out):
         tissue = np.isin(parts.kind, (labels.CEREBRUM, labels.BRAINSTEM, labels.CEREBELLUM))
         head = describe(options, notes + derived + plan.notes, landmarks) | build.description(anatomy)
         wrong = mesh(options, work, out, anatomy, head, goals, shape.label_at(volumes),
-                     float(tissue.sum() * image.voxel_volume))
+                     float(tissue.sum() * image.voxel_volume), progress)
         plan.notes = []
         if not wrong:
+            add_materials(options, out, stuff)
             return image, frame, sorted(goals, reverse=True)
         # A loop of tissue around a furrow, mostly: it closes when furrows are filled a little further.
         notes.append(f"sulci filled by a ball of {radius:g} mm gave no sound mesh ({sentence(wrong)})")
@@ -186,18 +202,27 @@ def describe(options, notes, landmarks):
             "landmarks": dict(landmarks), "notes": notes}
 
 
-def mesh(options, work, out, anatomy, head, goals, label_of, tissue):
+def mesh(options, work, out, anatomy, head, goals, label_of, tissue, progress):
     """Writes the head folder. Returns the row of the head table that is out of range, if any."""
-    print("== meshes", flush=True)
+    progress.begin("meshes")
     try:
         build.build(anatomy, options.mesher, work, options.edge, out, head, goals,
                     {"whole_brain_mask": tissue}, label_of)
     except (subprocess.CalledProcessError, IndexError, ValueError) as error:
         raise Problem(f"{options.image}: could not be meshed ({' '.join(str(error).split())}): try another "
                       "--closing or --edge") from error
-    print("== check", flush=True)
+    progress.begin("check")
     wrong = check_head.check(out, record=True, quiet=True)
     return wrong[0] if wrong else None
+
+
+def add_materials(options, out, stuff):
+    """Those of parts of the brain, beside the meshes."""
+    if not stuff:
+        return
+    cells = vtkxml.read(out / "brain.vtu")[2]
+    materials.check_meshed(options.materials, stuff, cells["label"])
+    materials.write(out / "materials.json", stuff)
 
 
 def sentence(row):
@@ -211,34 +236,6 @@ def range_of(row):
     return f"at least {low:g}" if high is None else f"{low:g} to {high:g}"
 
 
-def operate(options, folder, sides):
-    """Runs dbs; its table goes to the screen and to procedure/table.txt. Returns its exit code."""
-    print("== procedure", flush=True)
-    command = [options.dbs, "--head", folder / "head", "--out", folder / "procedure"]
-    if len(sides) == 1:
-        command += ["--sides", sides[0]]
-    (folder / "procedure").mkdir()
-    lines = []
-    with subprocess.Popen([*command, *options.dbs_options], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          text=True) as process:
-        try:
-            for line in process.stdout:
-                line = line.replace(str(folder), str(options.out))  # where it will be
-                print(line, end="", flush=True)
-                lines.append(line)
-            message = process.stderr.read().strip()
-        except KeyboardInterrupt:
-            process.kill()
-            raise
-    if process.returncode not in (0, 2):
-        raise Problem(f"the procedure cannot be done: {message.removeprefix('dbs: ') or 'dbs ended early'}")
-    if not (folder / "procedure" / "stages.json").exists():
-        raise Problem("the procedure left no files: leave --no-files, --plan and --help out of the options "
-                      "after --")
-    (folder / "procedure" / "table.txt").write_text("".join(lines), encoding="utf-8")
-    return process.returncode
-
-
 def refuse_foreign(out):
     """Only an empty folder, or one of earlier results, is replaced."""
     if out.exists() and (not out.is_dir() or (any(out.iterdir()) and not (out / MARK).exists())):
@@ -246,43 +243,84 @@ def refuse_foreign(out):
                       "one")
 
 
-def run(options):
+def check_fields(fields):
+    """Labels of stages, before minutes have passed."""
+    for name in fields.split(",") if fields not in ("", "all") else ():
+        if name.strip() not in results.STAGES:
+            raise Problem(f"--fields {fields}: there is no stage '{name.strip()}': choose of "
+                          f"{', '.join(results.STAGES)}, or all")
+
+
+def check_report(options):
+    if options.report and options.head_only:
+        raise Problem("--report: is about a procedure: leave it or --head-only out")
+    if options.report and subprocess.run([*REPORT, "--check"]).returncode:
+        raise Problem("--report: no page can be drawn here: install what it needs (cmake/install-deps.sh docs)")
+
+
+def write_report(options):
+    """A page about the results in --out, as examples/run --report makes it."""
+    command = [*REPORT, "--head", options.out / "head", options.out / "procedure", "--out", options.report]
+    if subprocess.run(command).returncode:
+        raise Problem(f"--report {options.report}: was not written, for the reason above; the results are in "
+                      f"{options.out}")
+
+
+def work_out(options, folder, work, progress):
+    """All that is written, into `folder`; returns the exit code of dbs."""
+    image, frame, sides = make_head(options, work, folder / "head", progress)
+    code = 0
+    if not options.head_only:
+        progress.begin("procedure")
+        code = operate(options, folder, sides, progress)
+        progress.begin("results in the frame of the label map")
+    # What is there by now is kept: a first signal is noted and told in the end.
+    with interrupts.handled_by(lambda number: None):
+        if not options.head_only:
+            say(results.write(folder, image, frame, options.fields))
+        results.write_mark(folder / MARK, options, frame)
+        if options.out.exists():
+            shutil.rmtree(options.out)
+        folder.rename(options.out)
+    return code
+
+
+def run(options, progress):
     refuse_foreign(options.out)
+    check_fields(options.fields)
+    check_report(options)
     options.out.parent.mkdir(parents=True, exist_ok=True)
     # All is made beside --out and takes its place at the end: nothing half-written stays.
     with tempfile.TemporaryDirectory(prefix=f".{options.out.name}.", dir=options.out.parent) as beside:
         folder, work = pathlib.Path(beside) / "results", pathlib.Path(beside) / "work"
         work.mkdir()
-        image, frame, sides = make_head(options, work, folder / "head")
-        code = 0
-        if not options.head_only:
-            code = operate(options, folder, sides)
-            print("== results in the frame of the label map", flush=True)
-            results.write(folder, image, frame, options.fields)
-        results.write_mark(folder / MARK, options, frame)
-        if options.out.exists():
-            shutil.rmtree(options.out)
-        folder.rename(options.out)
-    print(f"written to {options.out}")
+        code = work_out(options, folder, work, progress)
+    print(f"written to {options.out}", flush=True)
+    if interrupts.number:
+        progress.end("interrupted", f"interrupted; {options.out} has what was finished")
+        return interrupts.exit_status()
+    if options.report:
+        write_report(options)
     if code:
-        raise Problem("a stage of the procedure found no balance of forces (the table says which); the stages "
-                      f"before it are in {options.out}: lose less fluid, or try a smaller --edge")
+        progress.end("failed", "a stage of the procedure found no balance of forces (the table says which); "
+                     f"the stages before it are in {options.out}: lose less fluid, or try a smaller --edge")
+        return 1
+    progress.end("done")
     return 0
 
 
-def interrupt(*_):
-    raise KeyboardInterrupt
-
-
 def main():
-    signal.signal(signal.SIGTERM, interrupt)  # as Ctrl-C: what is half-written is taken away
+    interrupts.catch()
+    progress = Progress("none")  # until the options are read
     try:
-        return run(read_options(sys.argv[1:]))
+        options = read_options(sys.argv[1:])
+        progress = Progress("none" if options.quiet else options.progress, options.head_only)
+        return run(options, progress)
     except KeyboardInterrupt:
-        print("own_head: interrupted; nothing was written", file=sys.stderr)
-        return 130
+        progress.end("interrupted", "interrupted; nothing was written")
+        return interrupts.exit_status()
     except Problem as problem:
-        print(f"own_head: {problem}", file=sys.stderr)
+        progress.end("error", str(problem))
         return 1
 
 

@@ -12,6 +12,7 @@ from vtk.util.numpy_support import vtk_to_numpy
 import markups
 from problem import Problem
 
+STAGES = ("0", "1", "2", "3", "4", "5", "6a", "6b", "6c", "7", "8", "9")  # that a procedure of dbs may have
 INTENT_VECTOR = 1007  # what ITK, ANTs and 3D Slicer take for a displacement field, in LPS
 RAS_TO_LPS = np.array([-1.0, -1.0, 1.0])
 
@@ -139,21 +140,19 @@ def write_markups(folder, stages, head, frame):
 
 
 def chosen(stages, fields):
-    """Labels of the stages whose fields are written."""
+    """Labels of the stages whose fields are written, and notes on those that were not finished."""
     known = [stage["stage"] for stage in stages]
     if not fields:
-        return known[-2:]
+        return known[-2:], []
     if fields == "all":
-        return known
+        return known, []
     wanted = [name.strip() for name in fields.split(",")]
-    for name in wanted:
-        if name not in known:
-            raise Problem(f"--fields {fields}: there is no stage '{name}': choose of {', '.join(known)}, or all")
-    return wanted
+    return [name for name in wanted if name in known], [
+        f"there is no field of stage {name}, which was not done" for name in wanted if name not in known]
 
 
 def write(folder, image, frame, fields):
-    """Writes folder/image from folder/procedure and folder/head."""
+    """Writes folder/image from folder/procedure and folder/head. Returns notes."""
     out, procedure = folder / "image", folder / "procedure"
     out.mkdir()
     head = json.loads((folder / "head" / "head.json").read_text(encoding="utf-8"))
@@ -162,15 +161,18 @@ def write(folder, image, frame, fields):
     world_of_head = np.linalg.inv(frame.matrix)
     for path in sorted([*procedure.glob("stage_*.vtu"), *procedure.glob("stage_*.vtp")]):
         write_vtk(out / path.name, move(read_vtk(path), world_of_head))
-    for name in chosen(stages, fields):
+    names, notes = chosen(stages, fields)
+    for name in names:
         title = next(stage["title"] for stage in stages if stage["stage"] == name)
         displacement = field(read_vtk(procedure / f"stage_{name}.vtu"), image, frame)
         write_field(out / f"stage_{name}.displacement.nii.gz", displacement, image, title)
     write_markups(out, stages, head, frame)
+    return notes
 
 
 def write_mark(path, options, frame):
     path.write_text(json.dumps({
         "made_by": "examples/own_head", "labels": options.image, "dictionary": str(options.labels),
-        "plan": [str(entry) for entry in options.plan], "edge_mm": options.edge,
+        "plan": [str(entry) for entry in options.plan],
+        "materials": str(options.materials) if options.materials else None, "edge_mm": options.edge,
         "world_to_head": frame.matrix.tolist()}, indent=1) + "\n", encoding="utf-8")

@@ -45,6 +45,9 @@ class Head:
     """The arrays of a head; see examples/dbs/head.hpp for what each holds."""
 
     def __init__(self, folder):
+        if os.path.exists(os.path.join(folder, 'materials.json')):
+            raise SystemExit(f'{folder}/materials.json: here the brain has one material: use dbs, or remove the '
+                             'file to do without those of its parts')
         nodes, tets, cells, marks = read(os.path.join(folder, 'brain.vtu'))
         self.nodes, self.tets, self.regions = nodes, tets, cells['region']
         self.pair = marks['pair']

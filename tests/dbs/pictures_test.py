@@ -118,6 +118,10 @@ class Panels(unittest.TestCase):
         warm = (image[..., 0].astype(int) - image[..., 2] > 15).sum()   # bone, and the yellow of the poles
         self.assertGreater(warm, 3000)
         self.assertGreater(len(where(self.draw(self.scene.axial(25.0), "8").image, FALX)[0]), 20)
+        # Its border, which tells it from what shines through it.
+        red, green, blue = np.moveaxis(self.draw(self.scene.space("left"), "8").image[..., :3].astype(int), -1, 0)
+        reddish = (red - green > 60) & (red - blue > 60) & (np.abs(green - blue) < 40)   # seen through the glass
+        self.assertGreater(reddish.sum(), 300)
 
 
 class Program(unittest.TestCase):

@@ -7,6 +7,7 @@ import html.parser
 import importlib.util
 import io
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -230,6 +231,39 @@ class Report(unittest.TestCase):
         # Down to the last stage: something is drawn in every 1000 pixels.
         for top in range(0, 9000, 1000):
             self.assertGreater(image[top:top + 1000].std(), 5.0, top)
+
+
+class ByDbs(unittest.TestCase):
+    """dbs --report: the same page with the run that it is about."""
+
+    def dbs(self, folder, *options):
+        return subprocess.run([os.environ["DBS"], "--head", str(HEAD), "--out", f"{folder}/results", "--report",
+                               f"{folder}/out/page.html", *options], capture_output=True, text=True)
+
+    def test_it_is_written_after_the_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run = self.dbs(folder, "--sides", "right", "--no-devices")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertEqual(run.stdout.splitlines()[-1], f"{folder}/out/page.html")
+            page = Page(Path(folder, "out/page.html").read_text())
+            stages = json.loads(Path(folder, "results/stages.json").read_text())["stages"]
+            self.assertEqual([row["words"][0] for row in page.tables["stages"] if row["words"]],
+                             [stage["stage"] for stage in stages])
+
+    def test_what_leaves_nothing_to_report_is_refused_at_once(self):
+        for option in ("--no-files", "--no-vtk", "--plan"):
+            with tempfile.TemporaryDirectory() as folder:
+                run = self.dbs(folder, option)
+                self.assertEqual((run.returncode, run.stdout), (1, ""))
+                self.assertIn("leave --no-files, --no-vtk and --plan out", run.stderr)
+
+    def test_a_page_that_cannot_be_written_is_told_and_the_results_stay(self):
+        with tempfile.TemporaryDirectory() as folder:
+            Path(folder, "out").write_text("in the way")
+            run = self.dbs(folder, "--sides", "right", "--no-devices")
+            self.assertEqual(run.returncode, 1)
+            self.assertIn("page.html: was not written", run.stderr)
+            self.assertTrue(Path(folder, "results/stages.json").is_file())
 
 
 if __name__ == "__main__":

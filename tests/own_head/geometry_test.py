@@ -6,7 +6,7 @@ import numpy as np
 from support import SOURCE  # first: it says where the example's modules are
 import frame as drawn
 import generic
-from chain import brain, trimesh
+from chain import brain, trimesh, walls
 
 
 class Pinches(unittest.TestCase):
@@ -25,6 +25,18 @@ class Pinches(unittest.TestCase):
         tets = np.array([[0, 1, 2, 3], [4, 2, 1, 3]])
         _, new_tets, _ = brain.part_pinches(nodes, tets, np.array([1, 1]), np.full(5, -1))
         np.testing.assert_array_equal(new_tets, tets)
+
+
+class Sheets(unittest.TestCase):
+    def test_points_of_a_border_in_a_line_make_no_triangle(self):
+        # Three points in a line to the last bits, as the border of a falx on labels of 1 mm had them.
+        loop = np.array([[-103.93148678, 20.73962896], [-102.93148678, 25.32895041], [-101.93148678, 29.91827186],
+                         [-60.0, 40.0], [-60.0, 10.0]])
+        loop[1] = loop[[0, 2]].mean(axis=0) + (1e-9, 0)
+        triangles = walls.triangles_within(loop, loop)
+        self.assertEqual(len(triangles), 3)
+        sheet = np.column_stack([0.02 * loop[:, 1]**2 / 40, loop])  # bent, as the lifted one is
+        self.assertGreater(np.abs(trimesh.normals_areas(sheet, triangles)[0][:, 0]).min(), 0.5)
 
 
 class Talairach(unittest.TestCase):

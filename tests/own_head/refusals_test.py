@@ -1,5 +1,6 @@
 """What cannot make a head is refused in one sentence, and nothing half-written stays."""
 import json
+import signal
 import subprocess
 import unittest
 
@@ -18,7 +19,8 @@ LEFT, BACKGROUND = 2, 0
 class Images(Case):
     def refused(self, values, affine, says):
         path = save(self.folder / "map.nii.gz", values, affine)
-        self.assert_refused(path, "--plan", PLAN, says=["map.nii.gz", *says])
+        # Before anything is meshed, so at the default sizes: they cost nothing.
+        self.assert_refused(path, "--plan", PLAN, says=["map.nii.gz", *says], sizes=())
 
     def test_a_missing_label(self):
         values, affine = phantom()
@@ -130,13 +132,14 @@ class Plans(Case):
         path.write_text(path.read_text().replace(f'"{system}"', f'"{told}"'))
         return path
 
-    def refused(self, path, says):
-        self.assert_refused(LABELS, "--plan", path, PLAN / "landmarks.mrk.json", says=[path.name, *says])
+    def refused(self, path, says, sizes=QUICK):
+        self.assert_refused(LABELS, "--plan", path, PLAN / "landmarks.mrk.json", says=[path.name, *says],
+                            sizes=sizes)
 
     def test_a_wrong_frame_puts_the_target_outside_the_brain(self):
         # Far from the axis a head that is shifted in the world leaves the brain when mirrored.
         path = self.line((-39, 22, 62), (-20, -75, 20), name="plan", system="LPS", told="RAS")
-        self.refused(path, ["outside the brain", "with LPS instead of RAS it would lie inside"])
+        self.refused(path, ["outside the brain", "with LPS instead of RAS it would lie inside"], sizes=())
 
     def test_a_target_outside_the_brain(self):
         self.refused(self.line((-39, 22, 62), (-11, -16, -300), name="left"),
@@ -201,7 +204,7 @@ class Folders(Case):
                     process.terminate()
                     break
             _, said = process.communicate()
-        self.assertEqual(process.returncode, 130)
+        self.assertEqual(process.returncode, 128 + signal.SIGTERM)
         self.assertEqual(said, "own_head: interrupted; nothing was written\n")
         self.assertEqual(sorted(self.folder.iterdir()), before)
 

@@ -1,14 +1,17 @@
 """Results in the frame of the map agree with the meshes, and can be read again."""
 import json
+import subprocess
+import types
 import unittest
 
 import nibabel
 import numpy as np
 from scipy.ndimage import map_coordinates
 
-from support import WORK  # first: it says where the example's modules are
+from support import WORK, Case  # first: it says where the example's modules are
 import make_phantom
 import markups
+import own_head
 import placement
 import plan as plans
 import results
@@ -108,6 +111,23 @@ def gradients(rest, shift, tets):
     """Displacement gradient of each tet."""
     edges = rest[tets[:, 1:]] - rest[tets[:, :1]]
     return np.linalg.solve(edges, shift[tets[:, 1:]] - shift[tets[:, :1]])
+
+
+class Page(Case):
+    def test_it_tells_of_this_head(self):
+        if subprocess.run([*own_head.REPORT, "--check"], capture_output=True).returncode:
+            self.skipTest("no page can be drawn here (cmake/install-deps.sh docs)")
+        path = self.folder / "page.html"
+        own_head.write_report(types.SimpleNamespace(out=OUT, report=path))
+        text = path.read_text(encoding="utf-8")
+        self.assertIn("The head was made from labels", text)
+        self.assertNotIn("The head is generic", text)
+        for entry in json.loads((OUT / "procedure/stages.json").read_text())["stages"]:
+            self.assertIn(f'id="stage_{entry["stage"]}"', text)
+
+    def test_without_a_procedure_there_is_none(self):
+        self.assert_refused(WORK / "out/phantom/labels.nii.gz", "--report", self.folder / "page.html",
+                            says=["--report", "leave it or --head-only out"])
 
 
 class Meshes(unittest.TestCase):

@@ -1,4 +1,5 @@
 """What the tests of examples/own_head share: programs, the synthetic head, runs and their refusals."""
+import json
 import os
 import pathlib
 import shutil
@@ -23,6 +24,14 @@ def run(*arguments, folder=None):
     """examples/own_head/run with the programs of this build (MESHER and DBS in the environment)."""
     return subprocess.run([EXAMPLE / "run", *map(str, arguments)], capture_output=True, text=True,
                           cwd=folder or WORK)
+
+
+def stages_of(out):
+    """What dbs left of each stage, without times."""
+    stages = json.loads((out / "procedure/stages.json").read_text(encoding="utf-8"))["stages"]
+    for stage in stages:
+        del stage["solve"]["seconds"]
+    return stages
 
 
 def phantom():
@@ -50,10 +59,10 @@ class Case(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(dir=WORK))
         self.addCleanup(shutil.rmtree, self.folder)
 
-    def assert_refused(self, *arguments, says):
+    def assert_refused(self, *arguments, says, sizes=QUICK):
         """The run ends with 1 and one sentence that holds all of `says`; nothing is left of it."""
         before = sorted(self.folder.iterdir())
-        result = run(*arguments, "--out", self.folder / "out", *QUICK, "--head-only")
+        result = run(*arguments, "--out", self.folder / "out", *sizes, "--head-only")
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
         lines = result.stderr.strip().splitlines()
         self.assertEqual(len(lines), 1, result.stderr)

@@ -51,6 +51,15 @@ def falx_outline(anatomy):
     return loop
 
 
+def triangles_within(yz, loop):
+    """Delaunay triangles of points (n, 2) that lie inside a loop of some of them. Three points of the loop
+    in a line, or two that are one, make no triangle: lifted to the sheet it would have an area, from the
+    sheet's bend alone, and a normal that lies in the sheet."""
+    triangles = Delaunay(yz).simplices
+    triangles = triangles[trimesh.in_polygon(yz[triangles].mean(axis=1), loop)]
+    return triangles[trimesh.areas(np.insert(yz, 0, 0.0, axis=1), triangles) > 1e-2]
+
+
 def falx(anatomy, size=5.0):
     """Points, triangles (normals to the right) and free-edge flag of the falx sheet."""
     edge = anatomy.falx_edge
@@ -67,14 +76,11 @@ def falx(anatomy, size=5.0):
     inner = inner[trimesh.in_polygon(inner, loop)]
     inner = inner[np.linalg.norm(inner[:, None] - loop, axis=2).min(axis=1) > 0.6 * size]
     yz = np.vstack([loop, inner])
-    triangles = Delaunay(yz).simplices
-    triangles = triangles[trimesh.in_polygon(yz[triangles].mean(axis=1), loop)]
+    triangles = triangles_within(yz, loop)
     used, triangles = np.unique(triangles, return_inverse=True)
     triangles = triangles.reshape(-1, 3)
     yz, free = yz[used], np.concatenate([free, np.zeros(len(inner), bool)])[used]
     points = domain.lift(anatomy.mid, yz)
-    # Where two points of the border fell on one of the free edge there is a triangle without area.
-    triangles = triangles[trimesh.areas(points, triangles) > 1e-3]
     left = trimesh.normals_areas(points, triangles)[0][:, 0] < 0
     triangles[left] = triangles[left][:, ::-1]
     return points, triangles, free

@@ -59,6 +59,7 @@ void Stepper::Impl::begin(const std::optional<double>& dt) {
         m_state.wanted,
         Solve(std::move(trial), m_state.devices, std::move(start), m_options, m_cache, motion)});
   }
+  m_farthest.reset();
   m_open->solve.seconds() += seconds;
 }
 
@@ -120,7 +121,14 @@ SolveReport Stepper::accept() {
 void Stepper::reject() {
   m_impl->require("reject", {StepPhase::begun, StepPhase::linearised, StepPhase::solved,
                              StepPhase::updated, StepPhase::converged, StepPhase::failed});
+  if (phase() == StepPhase::failed) m_impl->m_farthest = m_impl->m_open->solve.take_farthest();
   m_impl->m_open.reset();
+}
+
+const Farthest& Stepper::farthest() const {
+  if (m_impl->m_farthest) return *m_impl->m_farthest;
+  throw Error(ErrorCode::invalid_argument,
+              "farthest() needs a solve that has failed, and the last one has not");
 }
 
 StepPhase Stepper::phase() const { return m_impl->phase(); }

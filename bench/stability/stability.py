@@ -7,6 +7,7 @@ import sys
 import time
 from pathlib import Path
 
+import calculix
 import charts
 import page
 
@@ -25,6 +26,17 @@ def run(axis, out):
     print(f"{axis}: {time.monotonic() - begin:.0f} s", flush=True)
     if status.returncode != 0 and axis != "repeated_rows_by_siconos":
         sys.exit(f"{axis} ended with {status.returncode}")
+
+
+def run_calculix(rows, out):
+    begin = time.monotonic()
+    if calculix.there():
+        statuses = calculix.run_all(PROGRAM, rows, out)
+        print(f"CalculiX: {time.monotonic() - begin:.0f} s, {dict(statuses)}", flush=True)
+    else:
+        for axis, columns in calculix.COLUMNS.items():
+            (out / f"{axis}_by_calculix.csv").write_text(",".join(columns) + "\n")
+        print("no CalculiX (cmake/install-deps.sh peers): the charts are without it", flush=True)
 
 
 def rows_of(path):
@@ -47,12 +59,16 @@ def main():
         for axis in AXES:
             run(axis, out)
     rows = {axis: rows_of(out / f"{axis}.csv") for axis in AXES}
+    if not options.draw_only:
+        run_calculix(rows, out)
+    theirs = {axis: rows_of(out / f"{axis}_by_calculix.csv") for axis in calculix.COLUMNS}
     for axis in AXES[:5]:
-        getattr(charts, axis)(rows[axis], folder / f"stability_{axis}.svg")
+        more = [theirs[axis]] if axis in theirs else []
+        getattr(charts, axis)(rows[axis], *more, folder / f"stability_{axis}.svg")
     siconos = rows["repeated_rows_by_siconos"]
     charts.repeated(rows["devices_on_one_track"], rows["repeated_rows"],
                     [] if page.absent(siconos) else siconos, folder / "stability_repeated_ties.svg")
-    (docs / "stability.md").write_text(page.text(rows))
+    (docs / "stability.md").write_text(page.text(rows, theirs))
 
 
 if __name__ == "__main__":

@@ -204,9 +204,10 @@ may_install() { [ "$(id -u)" -eq 0 ] || sudo -n true 2>/dev/null; }
 # Never asks for a password, never fails. Siconos' BLAS is any OpenBLAS: the serial one is named
 # along with it, or apt would add a threaded one.
 install_optional() {
-  local group line package probe what
+  local group line lines package probe what
   for group in "$@"; do
-    for line in $(optional_of "$group"); do
+    mapfile -t lines < <(optional_of "$group")
+    for line in ${lines[@]+"${lines[@]}"}; do
       IFS='|' read -r package probe what <<<"$line"
       if on_debian; then
         [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ] || continue

@@ -8,7 +8,7 @@ from collections import Counter
 
 import numpy as np
 
-LOAD = 0.6          # full pressure of the compression decks, over Young's modulus
+LOAD = 0.8          # full pressure of the compression decks, over Young's modulus
 HEAD = 40.0         # mm; the bar ends and its head begins
 SECONDS = 120.0     # for one run
 LAW = "st_venant_kirchhoff"

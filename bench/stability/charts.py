@@ -76,7 +76,8 @@ def compression(rows, theirs, path):
     axes[1].plot([], [], "ko", markerfacecolor="white", linestyle="none", label="not stopped")
     axes[1].plot([], [], "k", linewidth=2, label="ellipticity is lost")
     axes[1].plot([], [], color="tab:red", linestyle=":", label="1/√3")
-    axes[1].plot([], [], "x", color="tab:red", markeredgewidth=2, label="called balance inside out")
+    if any(r["inverted_at"] for r in theirs):
+        axes[1].plot([], [], "x", color="tab:red", markeredgewidth=2, label="called balance inside out")
     # Of the figure, so that it does not push the panels apart.
     figure.legend(*axes[1].get_legend_handles_labels(), fontsize=8, loc="lower center", ncol=7)
     save(figure, path, rect=(0, 0.06, 1, 1))

@@ -49,13 +49,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--write-docs", action="store_true")
     parser.add_argument("--draw-only", action="store_true")
+    parser.add_argument("--calculix-only", action="store_true")
     options = parser.parse_args()
     out = ROOT / "out/stability"
     docs = ROOT / "docs" if options.write_docs else out
     folder = docs / "charts"
     out.mkdir(parents=True, exist_ok=True)
     folder.mkdir(parents=True, exist_ok=True)
-    if not options.draw_only:
+    if not (options.draw_only or options.calculix_only):
         for axis in AXES:
             run(axis, out)
     rows = {axis: rows_of(out / f"{axis}.csv") for axis in AXES}

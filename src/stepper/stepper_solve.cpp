@@ -110,7 +110,7 @@ StepPhase Stepper::update() {
 SolveReport Stepper::accept() {
   m_impl->require("accept", {StepPhase::converged});
   Impl::OpenSolve& open = *m_impl->m_open;
-  const SolveReport report = progress_report();
+  SolveReport report = progress_report();
   Impl::State next = m_impl->solved(open);
   std::swap(m_impl->m_state, next);
   m_impl->m_equilibrium = std::move(open.solve.equilibrium());
@@ -154,7 +154,7 @@ SolveReport run(Stepper& stepper) {
     stepper.reject();
     throw;
   }
-  const SolveReport report = stepper.progress_report();
+  SolveReport report = stepper.progress_report();
   stepper.reject();
   return report;
 }

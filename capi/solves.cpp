@@ -70,7 +70,7 @@ struct Digits {
 // What is said of a solve that has ended; needs no memory, for the state may have changed.
 brs_status said(Context& context, const SolveReport& r) noexcept {
   if (!r.converged()) context.say(r.message.c_str());
-  std::snprintf(context.note, sizeof context.note,
+  (void)std::snprintf(context.note, sizeof context.note,  // cut where it is too long
                 "%s: residual %s, smallest det F %s, %d iterations, %d factorisations, %s s%s%s",
                 to_string(r.status), Digits(r.residual).text, Digits(r.smallest_jacobian).text,
                 r.iterations, r.factorisations, Digits(r.seconds).text, r.message.empty() ? "" : "; ",

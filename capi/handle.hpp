@@ -28,7 +28,7 @@ struct Context {
   int threads = 1;
   // Of fixed size: a message about lack of memory needs none.
   char message[1024] = "";
-  char note[256] = "";  // for the log, of a call that has gone well
+  char note[512] = "";  // for the log, of a call that has gone well
 
   void say(const char* text) noexcept;  // cuts at the end of a UTF-8 character
 };

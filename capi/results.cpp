@@ -37,6 +37,7 @@ View view_of_field(brs_stepper& s, int32_t field) {
     case BRS_FIELD_EXTERNAL_FORCE: return vectors(stepper.external_force());
     case BRS_FIELD_VELOCITY: return view_of(stepper.velocity());
     case BRS_FIELD_ITERATE: return view_of(stepper.iterate());
+    case BRS_FIELD_FARTHEST: return view_of(stepper.farthest().displacement);
     default:
       throw Refusal(BRS_ERROR_INVALID_ARGUMENT,
                     "there is no field with the number " + std::to_string(field));

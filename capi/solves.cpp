@@ -20,6 +20,13 @@ brs_status status_of(Status status) {
   return BRS_ERROR_INTERNAL;
 }
 
+int64_t number_of(Definiteness tangent) {
+  static_assert(int64_t(Definiteness::not_examined) == BRS_TANGENT_NOT_EXAMINED &&
+                int64_t(Definiteness::positive_definite) == BRS_TANGENT_POSITIVE_DEFINITE &&
+                int64_t(Definiteness::indefinite) == BRS_TANGENT_INDEFINITE);
+  return int64_t(tangent);
+}
+
 brs_solve_report report_of(const SolveReport& r) {
   return {sizeof(brs_solve_report),
           status_of(r.status),
@@ -43,7 +50,9 @@ brs_solve_report report_of(const SolveReport& r) {
           r.tie_gap,
           r.coupling_rows,
           r.coupling_rank,
-          r.coupling_unique ? 1 : 0};
+          r.coupling_unique ? 1 : 0,
+          number_of(r.tangent),
+          r.blas_threads};
 }
 
 brs_memory_estimate memory_of(const MemoryEstimate& m) {
@@ -60,11 +69,12 @@ struct Digits {
 
 // What is said of a solve that has ended; needs no memory, for the state may have changed.
 brs_status said(Context& context, const SolveReport& r) noexcept {
-  context.say(r.message.c_str());
-  std::snprintf(context.note, sizeof context.note,
-                "%s: residual %s, smallest det F %s, %d iterations, %d factorisations, %s s",
+  if (!r.converged()) context.say(r.message.c_str());
+  (void)std::snprintf(context.note, sizeof context.note,  // cut where it is too long
+                "%s: residual %s, smallest det F %s, %d iterations, %d factorisations, %s s%s%s",
                 to_string(r.status), Digits(r.residual).text, Digits(r.smallest_jacobian).text,
-                r.iterations, r.factorisations, Digits(r.seconds).text);
+                r.iterations, r.factorisations, Digits(r.seconds).text, r.message.empty() ? "" : "; ",
+                r.message.c_str());
   return status_of(r.status);
 }
 

@@ -21,6 +21,8 @@ Groups (default: core):
   site   what makes the site of documents: Sphinx with MyST, Doxygen
   bench  Google Benchmark
   peers  CalculiX, for comparison
+  threaded_blas  OpenBLAS with threads, unpacked in out/threaded_blas for tests/robustness/blas: installed,
+         Debian would prefer it to the serial one everywhere
 
 Does nothing where all is installed. Needs root or sudo only if something is missing.
 END
@@ -202,9 +204,10 @@ may_install() { [ "$(id -u)" -eq 0 ] || sudo -n true 2>/dev/null; }
 # Never asks for a password, never fails. Siconos' BLAS is any OpenBLAS: the serial one is named
 # along with it, or apt would add a threaded one.
 install_optional() {
-  local group line package probe what
+  local group line lines package probe what
   for group in "$@"; do
-    for line in $(optional_of "$group"); do
+    mapfile -t lines < <(optional_of "$group")
+    for line in ${lines[@]+"${lines[@]}"}; do
       IFS='|' read -r package probe what <<<"$line"
       if on_debian; then
         [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ] || continue
@@ -239,13 +242,27 @@ report_blas() {
   esac
 }
 
+unpack_threaded_blas() {
+  local package=libopenblas0-pthread folder
+  folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/out/threaded_blas
+  if [ -d "$folder/usr" ]; then return; fi
+  if ! on_debian; then
+    echo "install-deps: not Debian or Ubuntu; tests of an OpenBLAS with threads are skipped" >&2
+    return
+  fi
+  mkdir -p "$folder"
+  if ! (cd "$folder" && apt-get -q download "$package" && dpkg-deb -x "$package"_*.deb . && rm "$package"_*.deb); then
+    echo "install-deps: $package cannot be had; tests of an OpenBLAS with threads are skipped" >&2
+  fi
+}
+
 main() {
   local group lines names package what
   for group in "$@"; do
     case "$group" in
       -h | --help) usage; exit 0 ;;
-      core | test | data | own_head | python | fuzz | docs | site | bench | peers) ;;
-      *) echo "install-deps: unknown group '$group'; known: core test data own_head python fuzz docs site bench peers" >&2; exit 2 ;;
+      core | test | data | own_head | python | fuzz | docs | site | bench | peers | threaded_blas) ;;
+      *) echo "install-deps: unknown group '$group'; known: core test data own_head python fuzz docs site bench peers threaded_blas" >&2; exit 2 ;;
     esac
   done
   [ $# -gt 0 ] || set -- core
@@ -267,6 +284,7 @@ main() {
     echo "install-deps: $*: all installed"
   fi
   install_optional "$@"
+  case " $* " in *" threaded_blas "*) unpack_threaded_blas ;; esac
   case " $* " in *" core "*) if on_debian; then report_blas; fi ;; esac
 }
 

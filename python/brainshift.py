@@ -72,6 +72,9 @@ CSF_OPEN = 1
 CSF_LEVEL = 2
 CSF_LOST_VOLUME = 3
 CSF_AIR_VOLUME = 4
+TANGENT_NOT_EXAMINED = 0
+TANGENT_POSITIVE_DEFINITE = 1
+TANGENT_INDEFINITE = 2
 PHASE_IDLE = 0
 PHASE_BEGUN = 1
 PHASE_LINEARISED = 2
@@ -89,6 +92,7 @@ FIELD_FLUID_FORCE = 6
 FIELD_EXTERNAL_FORCE = 7
 FIELD_VELOCITY = 8
 FIELD_ITERATE = 9
+FIELD_FARTHEST = 10
 MCP_AUTOMATIC = 0
 MCP_NEWTON = 1
 MCP_PIVOTING = 2
@@ -638,8 +642,10 @@ class SolveReport(Struct):
                 ('tie_gap', c_double),
                 ('coupling_rows', c_int64),
                 ('coupling_rank', c_int64),
-                ('coupling_unique', c_int64)]
-    _names = ['status', 'residual', 'complementarity', 'violation', 'last_correction', 'smallest_jacobian', 'energy', 'load_factor', 'load_steps', 'iterations', 'factorisations', 'shifted_factorisations', 'active_contacts', 'seconds', 'seconds_assembly', 'seconds_factor', 'seconds_line_search', 'kinetic_energy', 'tie_gap', 'coupling_rows', 'coupling_rank', 'coupling_unique']
+                ('coupling_unique', c_int64),
+                ('tangent', c_int64),
+                ('blas_threads', c_int64)]
+    _names = ['status', 'residual', 'complementarity', 'violation', 'last_correction', 'smallest_jacobian', 'energy', 'load_factor', 'load_steps', 'iterations', 'factorisations', 'shifted_factorisations', 'active_contacts', 'seconds', 'seconds_assembly', 'seconds_factor', 'seconds_line_search', 'kinetic_energy', 'tie_gap', 'coupling_rows', 'coupling_rank', 'coupling_unique', 'tangent', 'blas_threads']
 
 
 class CompartmentState(Struct):
@@ -1579,9 +1585,9 @@ class Stepper(Handle):
         return report
 
     def field(self, field):
-        """A view of a field; displacement, velocity and iterate are the stepper's own, without a copy. Valid
+        """A view of a field; displacement, velocity, iterate and farthest are the stepper's own, without a copy. Valid
         until the next solve, phase, restore, view of the same field, or the end of the stepper.
-        values: rows x columns. INVALID_ARGUMENT for an unknown field; rows and columns may be NULL.
+        values: rows x columns. INVALID_ARGUMENT for an unknown field, and for one that is not there; rows and columns may be NULL.
         """
         values = POINTER(c_double)()
         rows = c_int64()

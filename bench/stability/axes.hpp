@@ -16,6 +16,8 @@ void stiffness();
 void devices_on_one_track();
 void repeated_rows();
 void repeated_rows_by_siconos();
+// Not an axis: input decks of CalculiX for three of them, one after another.
+void calculix_decks();
 
 constexpr double young = 6.0;  // kPa
 

@@ -8,11 +8,12 @@ matplotlib.rcParams["svg.hashsalt"] = "stability"   # the same names in the file
 
 LAWS = {"linear": "tab:gray", "corotational": "tab:blue", "st_venant_kirchhoff": "tab:red",
         "stable_neo_hookean": "tab:green", "log_neo_hookean": "tab:purple"}
+CALCULIX = "black"
 ELEMENTS = {"linear": ("o", "-"), "nodal": ("s", "--"), "quadratic": ("^", ":")}
 
 
-def save(figure, path):
-    figure.tight_layout()
+def save(figure, path, **layout):
+    figure.tight_layout(**layout)
     figure.savefig(path, metadata={"Date": None})
     plt.close(figure)
 
@@ -36,10 +37,23 @@ def select(table, **wanted):
     return [r for r in table if all(r[k] == v for k, v in wanted.items())]
 
 
-def compression(rows, path):
+def reach_of_calculix(axis, row, theirs):
+    """A line per element; a cross where it called balance what has a tet inside out."""
+    for shift, element in ((-1, "linear"), (1, "quadratic")):
+        for r in select(theirs, element=element):
+            y = row + 0.25 * shift
+            axis.plot([1, number(r["stretch"])], [y, y], color=CALCULIX, linewidth=1.2)
+            axis.plot(number(r["stretch"]), y, ELEMENTS[element][0], color=CALCULIX, markersize=6)
+            if r["inverted_at"]:
+                axis.plot(number(r["inverted_at"]), y, "x", color="tab:red", markersize=8, markeredgewidth=2)
+
+
+def compression(rows, theirs, path):
     bars = list(dict.fromkeys(r["bar"] for r in rows))
-    figure, axes = plt.subplots(1, len(bars), figsize=(11, 3.8), sharey=True, sharex=True)
+    figure, axes = plt.subplots(1, len(bars), figsize=(11, 4.2), sharey=True, sharex=True)
+    labels = [*LAWS, *(["st_venant_kirchhoff,\nCalculiX"] if theirs else [])]
     for axis, bar in zip(axes, bars):
+        reach_of_calculix(axis, len(LAWS), select(theirs, bar=bar))
         for row, (law, colour) in enumerate(LAWS.items()):
             for shift, (element, (marker, _)) in enumerate(ELEMENTS.items()):
                 (r,) = select(rows, bar=bar, law=law, element=element)
@@ -54,7 +68,7 @@ def compression(rows, path):
         axis.axvline(3 ** -0.5, color="tab:red", linestyle=":", linewidth=1)
         axis.set_title(bar, fontsize=10)
         axis.set_xlabel("stretch reached")
-        axis.set_yticks(range(len(LAWS)), LAWS)
+        axis.set_yticks(range(len(labels)), labels)
     axes[0].set_xlim(1.02, 0)
     axes[0].invert_yaxis()
     for element, (marker, _) in ELEMENTS.items():
@@ -62,16 +76,23 @@ def compression(rows, path):
     axes[1].plot([], [], "ko", markerfacecolor="white", linestyle="none", label="not stopped")
     axes[1].plot([], [], "k", linewidth=2, label="ellipticity is lost")
     axes[1].plot([], [], color="tab:red", linestyle=":", label="1/√3")
-    axes[1].legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.18), ncol=6)
-    save(figure, path)
+    if any(r["inverted_at"] for r in theirs):
+        axes[1].plot([], [], "x", color="tab:red", markeredgewidth=2, label="called balance inside out")
+    # Of the figure, so that it does not push the panels apart.
+    figure.legend(*axes[1].get_legend_handles_labels(), fontsize=8, loc="lower center", ncol=7)
+    save(figure, path, rect=(0, 0.06, 1, 1))
 
 
-def poisson(rows, path):
+def poisson(rows, theirs, path):
     figure, axes = plt.subplots(1, 3, figsize=(11, 3.6), sharey=True)
     for axis, element in zip(axes, ELEMENTS):
         for law, colour in LAWS.items():
             plot(axis, select(rows, element=element, law=law), "below_half", "error", color=colour,
                  marker="o", label=law)
+        some = select(theirs, element=element)
+        if some:
+            plot(axis, some, "below_half", "error", color=CALCULIX, marker="d", linestyle="--",
+                 label="st_venant_kirchhoff, CalculiX")
         axis.set_xscale("log")
         axis.set_yscale("log")
         axis.invert_xaxis()
@@ -82,7 +103,7 @@ def poisson(rows, path):
     save(figure, path)
 
 
-def load_steps(rows, path):
+def load_steps(rows, theirs, path):
     loads = list(dict.fromkeys(r["load"] for r in rows))
     figure, axes = plt.subplots(1, len(loads), figsize=(9, 3.8))
     for axis, load in zip(axes, loads):
@@ -91,6 +112,11 @@ def load_steps(rows, path):
                 plot(axis, select(rows, load=load, law=law, element=element), "calls", "iterations",
                      color=colour, marker=marker, linestyle=line,
                      label=law if element == "linear" else None)
+        for element, (marker, line) in ELEMENTS.items():
+            some = select(theirs, load=load, element=element)
+            if some:
+                plot(axis, some, "calls", "iterations", color=CALCULIX, marker=marker, linestyle=line,
+                     label="st_venant_kirchhoff, CalculiX" if element == "linear" else None)
         axis.set_xscale("log", base=2)
         axis.set_yscale("log")
         axis.set_title(f"{load} g across the bar", fontsize=10)

@@ -1,28 +1,18 @@
 // A bar pressed by a heavy head, more and more, until there is no balance.
 #include <Eigen/Eigenvalues>
 
-#include "axes.hpp"
+#include "scenes.hpp"
 #include "support/scenes.hpp"
 
 namespace brainshift::stability {
-namespace {
 
 using namespace brainshift::test;
 
-constexpr double height = 40.0, head = 10.0;  // mm; 20 mm wide
+namespace {
+constexpr double height = bar_height, head = 10.0;  // mm
+}
 
-struct Bar {
-  const char* name;
-  bool confined;  // no node moves sideways, so that strain is uniform and every element exact;
-                  // else base and head are held, and the sides are free
-  double poisson;
-};
-constexpr Bar bars[] = {{"confined, nu 0", true, 0.0},
-                        {"confined, nu 0.45", true, 0.45},
-                        {"free sides, nu 0.45", false, 0.45}};
-
-// Free of load, on its base.
-Scene scene_of(const Bar& bar, Law law) {
+Scene pressed_bar(const Bar& bar, Law law) {
   const TetShape shape = make_box({20, 20, height + head}, 2, 2, 5);
   Indices regions(std::size_t(shape.tets.rows()), 0);
   const std::size_t head_begins = 6 * 2 * 2 * 4;
@@ -44,10 +34,13 @@ Scene scene_of(const Bar& bar, Law law) {
   return scene;
 }
 
+namespace {
+
 struct Reached {
   double load = 0.0;  // pressure of the head over Young's modulus
   double stretch = 1.0, jacobian = 1.0;
-  int solves = 0, iterations = 0, shifted = 0;
+  int solves = 0, iterations = 0;
+  const char* tangent = "";
   std::string status = "end of the axis", message;
 };
 
@@ -76,7 +69,7 @@ Reached press(Stepper& stepper) {
     reached.load = load;
     reached.stretch = stretch_of(stepper);
     reached.jacobian = report.smallest_jacobian;
-    reached.shifted = report.shifted_factorisations;
+    reached.tangent = to_string(report.tangent);
   }
   if (reached.stretch <= 0.05) reached.status = "end of the axis", reached.message.clear();
   return reached;
@@ -105,7 +98,7 @@ double loses_ellipticity(Law law, double poisson) {
 }  // namespace
 
 void compression() {
-  std::printf("bar,law,element,stretch,load,jacobian,solves,iterations,shifted,status,message\n");
+  std::printf("bar,law,element,stretch,load,jacobian,solves,iterations,tangent,status,message\n");
   for (const Bar& bar : bars) {
     for (const Law law : laws) {
       if (bar.confined)
@@ -115,11 +108,11 @@ void compression() {
         StepperOptions options;
         options.smallest_load_step = 1.0;  // the steps are cut here
         options.max_iterations = 30;
-        Stepper stepper(with(scene_of(bar, law), element), options);
+        Stepper stepper(with(pressed_bar(bar, law), element), options);
         const Reached r = press(stepper);
-        std::printf("%s,%s,%s,%.4f,%.4g,%.4f,%d,%d,%d,%s,%s\n", quoted(bar.name).c_str(),
+        std::printf("%s,%s,%s,%.4f,%.4g,%.4f,%d,%d,%s,%s,%s\n", quoted(bar.name).c_str(),
                     to_string(law), to_string(element), r.stretch, r.load, r.jacobian, r.solves,
-                    r.iterations, r.shifted, r.status.c_str(), quoted(r.message).c_str());
+                    r.iterations, r.tangent, r.status.c_str(), quoted(r.message).c_str());
       }
     }
   }

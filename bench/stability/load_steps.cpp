@@ -1,13 +1,12 @@
 // The same load in one call or in many: a bar bent far over by gravity across it.
-#include "axes.hpp"
+#include "scenes.hpp"
 #include "support/scenes.hpp"
 
 namespace brainshift::stability {
-namespace {
 
 using namespace brainshift::test;
 
-Scene bar(Law law) {
+Scene bent_bar(Law law) {
   Scene scene{make_mesh(make_box({20, 20, 60}, 2, 2, 6)),
               {{0, Material(law, young, 0.45, tissue_density)}},
               Vec3::Zero()};
@@ -17,8 +16,10 @@ Scene bar(Law law) {
   return scene;
 }
 
+namespace {
+
 void row(Law law, Element element, double load, int calls) {
-  Stepper stepper(with(bar(law), element));
+  Stepper stepper(with(bent_bar(law), element));
   SolveReport last;
   int iterations = 0, steps = 0;
   double reached = 0.0;  // part of the load in balance
@@ -43,8 +44,8 @@ void load_steps() {
   std::printf("law,element,load,calls,iterations,load_steps,reached,tip_x,tip_z,status,message\n");
   for (const Law law : laws) {
     for (const Element element : elements) {
-      for (const double load : {0.3, 3.0}) {
-        for (const int calls : {1, 4, 16}) row(law, element, load, calls);
+      for (const double load : loads_across) {
+        for (const int calls : call_counts) row(law, element, load, calls);
       }
     }
   }

@@ -16,7 +16,8 @@ constexpr Axis axes[] = {
     {"compression", compression},     {"poisson", poisson},
     {"load_steps", load_steps},       {"time_steps", time_steps},
     {"stiffness", stiffness},         {"devices_on_one_track", devices_on_one_track},
-    {"repeated_rows", repeated_rows}, {"repeated_rows_by_siconos", repeated_rows_by_siconos}};
+    {"repeated_rows", repeated_rows}, {"repeated_rows_by_siconos", repeated_rows_by_siconos},
+    {"calculix_decks", calculix_decks}};
 
 }  // namespace
 

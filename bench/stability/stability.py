@@ -7,6 +7,7 @@ import sys
 import time
 from pathlib import Path
 
+import calculix
 import charts
 import page
 
@@ -27,6 +28,17 @@ def run(axis, out):
         sys.exit(f"{axis} ended with {status.returncode}")
 
 
+def run_calculix(rows, out):
+    begin = time.monotonic()
+    if calculix.there():
+        statuses = calculix.run_all(PROGRAM, rows, out)
+        print(f"CalculiX: {time.monotonic() - begin:.0f} s, {dict(statuses)}", flush=True)
+    else:
+        for axis, columns in calculix.COLUMNS.items():
+            (out / f"{axis}_by_calculix.csv").write_text(",".join(columns) + "\n")
+        print("no CalculiX (cmake/install-deps.sh peers): the charts are without it", flush=True)
+
+
 def rows_of(path):
     """Without the lines that Siconos prints in between."""
     with path.open() as file:
@@ -37,22 +49,27 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--write-docs", action="store_true")
     parser.add_argument("--draw-only", action="store_true")
+    parser.add_argument("--calculix-only", action="store_true")
     options = parser.parse_args()
     out = ROOT / "out/stability"
     docs = ROOT / "docs" if options.write_docs else out
     folder = docs / "charts"
     out.mkdir(parents=True, exist_ok=True)
     folder.mkdir(parents=True, exist_ok=True)
-    if not options.draw_only:
+    if not (options.draw_only or options.calculix_only):
         for axis in AXES:
             run(axis, out)
     rows = {axis: rows_of(out / f"{axis}.csv") for axis in AXES}
+    if not options.draw_only:
+        run_calculix(rows, out)
+    theirs = {axis: rows_of(out / f"{axis}_by_calculix.csv") for axis in calculix.COLUMNS}
     for axis in AXES[:5]:
-        getattr(charts, axis)(rows[axis], folder / f"stability_{axis}.svg")
+        more = [theirs[axis]] if axis in theirs else []
+        getattr(charts, axis)(rows[axis], *more, folder / f"stability_{axis}.svg")
     siconos = rows["repeated_rows_by_siconos"]
     charts.repeated(rows["devices_on_one_track"], rows["repeated_rows"],
                     [] if page.absent(siconos) else siconos, folder / "stability_repeated_ties.svg")
-    (docs / "stability.md").write_text(page.text(rows))
+    (docs / "stability.md").write_text(page.text(rows, theirs))
 
 
 if __name__ == "__main__":

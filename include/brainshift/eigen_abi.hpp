@@ -18,7 +18,7 @@ namespace brainshift {
 
 extern const char BRAINSHIFT_EIGEN_ABI;   // src/eigen_abi.cpp
 namespace {
-[[gnu::used]] const char* const required_eigen_abi = &BRAINSHIFT_EIGEN_ABI;
+[[gnu::used]] const char* const required_eigen_abi = &BRAINSHIFT_EIGEN_ABI;  // NOLINT(misc-definitions-in-headers): each file has its own
 }
 
 }  // namespace brainshift

@@ -102,6 +102,17 @@ enum class StepPhase {
 
 const char* to_string(StepPhase phase);
 
+// The matrix of the linearised problem of the tissue (supports with it) on what fixed rows and contacts
+// leave free, in time with inertia and damping; without devices and the terms of given volumes of fluid,
+// which may hold what it does not.
+enum class Definiteness {
+  not_examined,        // nothing had to be solved
+  positive_definite,   // where it was factored last, next to the state
+  indefinite           // at the state: past a limit point, in buckling, or beyond the range of a law
+};
+
+const char* to_string(Definiteness definiteness);
+
 // Certificate of a solve: measured on the state that is left behind; of a solve that did not
 // converge (its state is given up), on its last iterate.
 struct SolveReport {
@@ -135,7 +146,11 @@ struct SolveReport {
   Index coupling_rank = 0;
   bool coupling_unique = true;
   double seconds = 0.0, seconds_assembly = 0.0, seconds_factor = 0.0, seconds_line_search = 0.0;
-  std::string message;            // one sentence; the hint when not converged
+  Definiteness tangent = Definiteness::not_examined;   // of a solve that converged
+  // Threads that the BLAS of the linear solver said it may use when the solve began; 0: it does not
+  // tell. The same input gives the same bits with 1 only. docs/decisions/threads.md
+  int blas_threads = 1;
+  std::string message;            // the hint when not converged; else what is to be minded, or empty
 
   bool converged() const { return status == Status::converged; }
 };
@@ -144,6 +159,12 @@ struct SolveReport {
 struct PointValues {
   Points values;   // mm
   Indices tet;
+};
+
+// How far a solve came that found no balance under its whole load.
+struct Farthest {
+  double load_factor = 0.0;   // part of the change of load; 0: that of before the solve
+  Points displacement;        // N x 3, mm; in balance under that part
 };
 
 // How far the mesh may have a state wrong, at points of the rest shape.
@@ -268,6 +289,11 @@ class Stepper {
   // valid until accept() or reject().
   const SolveReport& progress_report() const;
   const Points& iterate() const;   // N x 3, mm; displacement
+
+  // Of the last solve, which has failed (phase by phase: and was rejected). It is no state of the
+  // stepper. One that failed because it would end inside out (SolveReport::smallest_jacobian) has the
+  // whole load. Valid until the next begin; throws invalid_argument where the last solve has not failed.
+  const Farthest& farthest() const;
 
   // The state: that of the last solve that converged, under the settings it had.
   const Points& displacement() const;        // N x 3, mm

@@ -56,6 +56,9 @@ class Newton {
   bool certify(const MechanicalState& state);
   // Fills in energies and the smallest det F of the iterate; returns the tet that has it.
   Eigen::Index describe();
+  // After certify(): of that state, with the active set of the last step. Assembles and factorises only
+  // where the last tangent was not positive definite; the factor at hand is lost then.
+  Definiteness examine_tangent();
   // The tangent at the last iterate was not positive definite: a limit point or an instability.
   bool lost_stability() const { return m_lost_stability; }
 

@@ -1,10 +1,11 @@
 #include "stepper/solve.hpp"
-#include "text.hpp"
 
 #include <algorithm>
 #include <string>
 #include <utility>
 
+#include "linear/blas_threads.hpp"
+#include "text.hpp"
 
 namespace brainshift {
 namespace {
@@ -30,6 +31,7 @@ Solve::Solve(Equilibrium equilibrium, const std::vector<InsertedDevice>& devices
                m_euler ? &*m_euler : nullptr),
       m_balanced(std::move(start)) {
   m_report.load_factor = 0.0;
+  m_report.blas_threads = blas_threads();
   m_unbalanced = m_newton.unbalanced(m_balanced);
   if (!all_finite(m_unbalanced)) {
     refuse_start();
@@ -148,8 +150,26 @@ void Solve::finish() {
       motion.velocity.setZero(motion.beam.x.rows(), 3);
     }
   }
+  m_report.tangent = m_newton.examine_tangent();
+  m_report.message = remark();
   m_report.status = Status::converged;
   m_phase = StepPhase::converged;
+}
+
+// What a host should know of a balance that was found.
+std::string Solve::remark() const {
+  std::string said;
+  if (m_report.tangent == Definiteness::indefinite) {
+    said = "the balance found may not be stable: the tangent of the tissue is not positive definite there, "
+           "as it is past a limit point, in buckling, or where a law has lost its ellipticity";
+  }
+  if (m_report.blas_threads != 1) {
+    const std::string count = std::to_string(m_report.blas_threads);
+    said += (said.empty() ? "" : "; ") + std::string("the same bits are not promised again: the BLAS ") +
+            (m_report.blas_threads > 1 ? "may use " + count + " threads"
+                                       : std::string("does not tell how many threads it uses"));
+  }
+  return said;
 }
 
 void Solve::fail(const std::string& message) {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "brainshift/stepper.hpp"
@@ -36,6 +37,8 @@ class Solve {
   bool is_static() const { return !m_euler; }
   // What converged. Velocities are zero in statics.
   const MechanicalState& result() const { return m_balanced; }
+  // The last balance on the way of a solve that has failed; it is gone from here then.
+  Farthest take_farthest() noexcept { return {m_report.load_factor, std::move(m_balanced.u)}; }
   Points velocity() const;
   Equilibrium& equilibrium() { return m_equilibrium; }
 
@@ -45,6 +48,7 @@ class Solve {
   void settle(Newton::Outcome outcome);
   bool halve_load_step(Newton::Outcome outcome);
   std::string hint(bool stuck) const;
+  std::string remark() const;
   bool is_late() const;
   void finish();
   void fail(const std::string& message);

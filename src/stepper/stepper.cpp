@@ -22,6 +22,15 @@ const char* to_string(Status status) {
   return "unknown";
 }
 
+const char* to_string(Definiteness definiteness) {
+  switch (definiteness) {
+    case Definiteness::not_examined: return "not_examined";
+    case Definiteness::positive_definite: return "positive_definite";
+    case Definiteness::indefinite: return "indefinite";
+  }
+  return "unknown";
+}
+
 StepperOptions within(double accuracy, const Mesh& mesh, StepperOptions options) {
   if (!(accuracy > 0.0) || !std::isfinite(accuracy)) {
     throw Error(ErrorCode::invalid_argument,

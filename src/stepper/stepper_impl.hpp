@@ -170,6 +170,7 @@ class Stepper::Impl {
   Snapshot m_state;
   FactorCache m_cache;
   std::unique_ptr<OpenSolve> m_open;
+  std::optional<Farthest> m_farthest;   // of the last solve, if it has failed
   bool m_in_phase = false;   // a callback must not end the solve it is called from
 };
 

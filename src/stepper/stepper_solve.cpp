@@ -59,6 +59,7 @@ void Stepper::Impl::begin(const std::optional<double>& dt) {
         m_state.wanted,
         Solve(std::move(trial), m_state.devices, std::move(start), m_options, m_cache, motion)});
   }
+  m_farthest.reset();
   m_open->solve.seconds() += seconds;
 }
 
@@ -109,7 +110,7 @@ StepPhase Stepper::update() {
 SolveReport Stepper::accept() {
   m_impl->require("accept", {StepPhase::converged});
   Impl::OpenSolve& open = *m_impl->m_open;
-  const SolveReport report = progress_report();
+  SolveReport report = progress_report();
   Impl::State next = m_impl->solved(open);
   std::swap(m_impl->m_state, next);
   m_impl->m_equilibrium = std::move(open.solve.equilibrium());
@@ -120,7 +121,14 @@ SolveReport Stepper::accept() {
 void Stepper::reject() {
   m_impl->require("reject", {StepPhase::begun, StepPhase::linearised, StepPhase::solved,
                              StepPhase::updated, StepPhase::converged, StepPhase::failed});
+  if (phase() == StepPhase::failed) m_impl->m_farthest = m_impl->m_open->solve.take_farthest();
   m_impl->m_open.reset();
+}
+
+const Farthest& Stepper::farthest() const {
+  if (m_impl->m_farthest) return *m_impl->m_farthest;
+  throw Error(ErrorCode::invalid_argument,
+              "farthest() needs a solve that has failed, and the last one has not");
 }
 
 StepPhase Stepper::phase() const { return m_impl->phase(); }
@@ -146,7 +154,7 @@ SolveReport run(Stepper& stepper) {
     stepper.reject();
     throw;
   }
-  const SolveReport report = stepper.progress_report();
+  SolveReport report = stepper.progress_report();
   stepper.reject();
   return report;
 }

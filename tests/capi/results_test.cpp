@@ -38,6 +38,8 @@ TEST_F(Results, OfASolveAreThoseOfTheCppLibrary) {
   EXPECT_EQ(report.violation, expected.violation);
   EXPECT_EQ(report.last_correction, expected.last_correction);
   EXPECT_EQ(report.smallest_jacobian, expected.smallest_jacobian);
+  EXPECT_EQ(report.tangent, BRS_TANGENT_POSITIVE_DEFINITE);
+  EXPECT_EQ(report.blas_threads, expected.blas_threads);
   EXPECT_EQ(report.energy, expected.energy);
   EXPECT_EQ(report.load_factor, expected.load_factor);
   EXPECT_EQ(report.load_steps, expected.load_steps);

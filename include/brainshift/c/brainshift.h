@@ -540,6 +540,14 @@ BRS_API brs_status brs_memory_estimate_init(brs_memory_estimate* estimate, int64
  * solver can number; CONFLICTING_CONSTRAINTS, FLUID_VOLUME, STRUCT_SIZE. */
 BRS_API brs_status brs_stepper_memory_estimate(brs_stepper* stepper, brs_memory_estimate* estimate);
 
+/* Tangent of the tissue on what fixed rows and contacts leave free, without devices and given volumes of
+ * fluid, which may hold what it does not. */
+enum {
+  BRS_TANGENT_NOT_EXAMINED = 0,      /* nothing had to be solved */
+  BRS_TANGENT_POSITIVE_DEFINITE = 1, /* where it was factored last, next to the state */
+  BRS_TANGENT_INDEFINITE = 2         /* at the state, which may not be stable; the log says so */
+};
+
 /* Certificate of a solve, measured on the state that it leaves behind. */
 typedef struct brs_solve_report {
   int64_t struct_size;
@@ -562,6 +570,9 @@ typedef struct brs_solve_report {
   int64_t coupling_rows;   /* of tissue and devices */
   int64_t coupling_rank;   /* of those whose force ended between its bounds */
   int64_t coupling_unique; /* 1; 0: they are dependent, and only sums of their forces are unique */
+  int64_t tangent;         /* of a solve that converged, above */
+  int64_t blas_threads;    /* the BLAS may use; 1: the same bits again; else only to rounding. 0: it
+                              does not tell */
 } brs_solve_report;
 
 BRS_API brs_status brs_solve_report_init(brs_solve_report* report, int64_t struct_size);
@@ -620,12 +631,14 @@ enum {
   BRS_FIELD_FLUID_FORCE = 6,    /* N x 3, mN, in full */
   BRS_FIELD_EXTERNAL_FORCE = 7, /* N x 3, mN, the two without those of a balanced reference */
   BRS_FIELD_VELOCITY = 8,       /* N x 3, mm/s; 0 after a static solve */
-  BRS_FIELD_ITERATE = 9         /* N x 3, mm; displacement of the solve that is begun */
+  BRS_FIELD_ITERATE = 9,        /* N x 3, mm; displacement of the solve that is begun */
+  BRS_FIELD_FARTHEST = 10       /* N x 3, mm; how far the last solve came, which has failed: in balance
+                                   under load_factor of its report; not the state */
 };
 
-/* A view of a field; displacement, velocity and iterate are the stepper's own, without a copy. Valid
+/* A view of a field; displacement, velocity, iterate and farthest are the stepper's own, without a copy. Valid
  * until the next solve, phase, restore, view of the same field, or the end of the stepper.
- * values: rows x columns. INVALID_ARGUMENT for an unknown field; rows and columns may be NULL. */
+ * values: rows x columns. INVALID_ARGUMENT for an unknown field, and for one that is not there; rows and columns may be NULL. */
 BRS_API brs_status brs_stepper_field(brs_stepper* stepper, int32_t field, const double** values,
                                      int64_t* rows, int64_t* columns);
 

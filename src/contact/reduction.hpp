@@ -45,6 +45,7 @@ class Reduction {
     Index block;
   };
   std::vector<Held> held_rows() const;
+  bool holds(Index block) const { return !m_blocks[std::size_t(block)].plain; }
   // The motions that T gains when these blocks let go all their rows but those tagged `kept`, one per
   // column: (9) with y beside them and c as it is reaches every motion then. tags: of those rows.
   SparseColumns released(const Indices& blocks, std::size_t kept, std::vector<std::size_t>& tags) const;

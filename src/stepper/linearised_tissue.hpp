@@ -22,6 +22,7 @@ class LinearisedTissue {
   void set_terms(Eigen::MatrixXd columns, Eigen::MatrixXd rows);
   // The solver has factored T^T K T of this reduction.
   void take_factor(const Reduction& factored);
+  bool has_terms() const { return m_terms.cols() > 0; }
   bool has_factor() const { return m_factored.has_value(); }
   const Reduction& factored() const { return *m_factored; }
 

@@ -18,6 +18,9 @@ constexpr int stale_steps = 4;
 // Iterations that a credit lasts: a slender body that turns far needs up to four until its energy is below.
 constexpr int credit_iterations = 5;
 
+// Turned factors that may be too far away in one search.
+constexpr int turns_that_may_fail = 2;
+
 }  // namespace
 
 void FactorCache::prepare(const std::shared_ptr<const Blocks>& blocks, int threads) {
@@ -90,6 +93,9 @@ Newton::Outcome Newton::begin(const MechanicalState& start, const Offset& offset
   m_credit.reset();
   m_may_borrow = !m_euler && m_coupling.empty() && m_eq.contacts().size() == 0;
   m_linearised.emplace(m_cache.stiffness, *m_cache.solver, m_coupling.path_columns(m_eq.blocks()));
+  m_turned_factor.emplace(m_eq.mesh(), m_eq.blocks(), m_cache.stiffness, *m_cache.solver);
+  m_turned = false;
+  m_turns_left = m_coupling.empty() ? turns_that_may_fail : 0;
   refresh();
   measure();
   if (unchanged(start)) {
@@ -101,10 +107,11 @@ Newton::Outcome Newton::begin(const MechanicalState& start, const Offset& offset
 
 void Newton::linearise() {
   if (m_fresh) assemble();
+  if (m_turned) assemble_stiffness();
 }
 
 void Newton::solve() {
-  m_found = find_step();
+  m_found = m_turned ? find_step_by_turned_factor() : find_step();
 }
 
 Newton::Outcome Newton::update() {
@@ -129,6 +136,7 @@ Newton::Outcome Newton::return_from_credit() {
   m_potential.reset();
   m_definite = false;
   m_fresh = true;
+  m_turned = false;
   m_last = m_previous = std::numeric_limits<double>::infinity();
   refresh();
   measure();
@@ -139,6 +147,8 @@ Newton::Outcome Newton::return_from_credit() {
 Newton::Outcome Newton::blame() {
   if (!m_fresh) {
     m_fresh = true;
+    if (m_turned) --m_turns_left;
+    m_turned = false;
     return Outcome::ongoing;
   }
   if (m_definite) return Outcome::stuck;
@@ -163,7 +173,8 @@ Newton::Outcome Newton::take(double part, MechanicalState& next) {
   }
   if (small_enough(m_last)) return Outcome::converged;
   const bool was_fresh = m_fresh;
-  m_fresh = !(part == 1.0 && serves_again(was_fresh));
+  m_turned = part == 1.0 && may_turn();
+  m_fresh = !m_turned && !(part == 1.0 && serves_again(was_fresh));
   return Outcome::ongoing;
 }
 
@@ -175,6 +186,11 @@ bool Newton::serves_again(bool was_fresh) const {
   if (was_fresh) return m_last <= stale_reach * diameter;
   const double enough = m_options.correction_tolerance * diameter;
   return enough >= m_last * std::pow(m_last / m_previous, stale_steps);
+}
+
+// Conjugate gradients know no devices, no terms of the fluid, and no rows but those of the factor.
+bool Newton::may_turn() const {
+  return m_turns_left > 0 && !m_lost_stability && m_active == m_factored && !m_linearised->has_terms();
 }
 
 // Largest displacement in the part of the step that is taken, of tissue and devices.

@@ -13,6 +13,7 @@
 #include "stepper/backward_euler.hpp"
 #include "stepper/equilibrium.hpp"
 #include "stepper/linearised_tissue.hpp"
+#include "stepper/turned_factor.hpp"
 
 namespace brainshift {
 
@@ -83,10 +84,12 @@ class Newton {
 
   void refresh();                                        // forces at m_state
   bool serves_again(bool was_fresh) const;
+  bool may_turn() const;                                 // the factor at hand, for conjugate gradients
   bool unchanged(const MechanicalState& start) const;
   bool small_enough(double last_correction) const;
   void choose_active();
   void assemble();                                       // tangent at m_state
+  void assemble_stiffness();                             // without the terms of the fluid
   bool factorise(const Reduction& reduction, bool singular);
   bool factorise_shifted(const Reduction& reduction, bool singular);
   bool flies(const Step& step) const;
@@ -95,8 +98,10 @@ class Newton {
   void begin_iteration();
   bool serve();
   Step direction();
+  void complete(Step& step, const Eigen::VectorXd& pushed) const;
   bool update_active(const Step& step);                  // true: the set changed
   bool find_step();
+  bool find_step_by_turned_factor();
   Outcome go_on();
   Outcome blame();
   bool borrow(double change);
@@ -154,11 +159,14 @@ class Newton {
   std::vector<char> m_active;           // per contact row
   std::vector<Mat3> m_free;             // per block: projection on what its fixed rows leave free
   std::optional<LinearisedTissue> m_linearised;
+  std::optional<TurnedFactor> m_turned_factor;
   std::vector<char> m_factored;         // the active set of its factor
   std::optional<Reduction> m_reduction; // of the set in use
   Step m_step;
   bool m_found = false;                 // there is a step
   bool m_fresh = true;                  // the next iteration assembles and factorises
+  bool m_turned = false;                // the next iteration assembles, and turns the factor at hand
+  int m_turns_left = 0;                 // how many more may be too far away
   bool m_definite = false;              // with the projected tangent
   bool m_lost_stability = false;        // of the last tangent that was factored
   int m_iteration = 0;                  // since begin()

@@ -19,9 +19,8 @@ constexpr int max_shifts = 12;
 
 // Assembles the tangent; definite where a former one of this solve was not positive.
 void Newton::assemble() {
+  assemble_stiffness();
   Stopwatch watch(m_report.seconds_assembly);
-  m_eq.tangent(m_state.u, m_forces, m_state.multipliers, m_definite, m_cache.stiffness);
-  if (m_euler) m_euler->add_tangent(m_cache.stiffness);
   const std::vector<RankOne> terms = m_eq.head_terms(m_state.u, m_forces);
   const auto size = 3 * Eigen::Index(m_eq.blocks().count());
   Eigen::MatrixXd columns(size, Eigen::Index(terms.size())), rows = columns;
@@ -30,6 +29,12 @@ void Newton::assemble() {
     rows.col(Eigen::Index(k)) = m_eq.blocks().gather(terms[k].row);
   }
   m_linearised->set_terms(std::move(columns), std::move(rows));
+}
+
+void Newton::assemble_stiffness() {
+  Stopwatch watch(m_report.seconds_assembly);
+  m_eq.tangent(m_state.u, m_forces, m_state.multipliers, m_definite, m_cache.stiffness);
+  if (m_euler) m_euler->add_tangent(m_cache.stiffness);
 }
 
 // singular: as it is the matrix is not worth a try.
@@ -61,6 +66,12 @@ Newton::Step Newton::direction() {
   } else {
     couple(step, pushed);
   }
+  complete(step, pushed);
+  return step;
+}
+
+// What follows from the motions of tissue and devices.
+void Newton::complete(Step& step, const Eigen::VectorXd& pushed) const {
   const Eigen::VectorXd unbalanced = pushed - m_linearised->times(step.dx);
   step.multipliers.assign(m_active.size() + 1, 0.0);  // the last one collects fixed rows
   m_reduction->multipliers(unbalanced, step.multipliers);
@@ -68,7 +79,6 @@ Newton::Step Newton::direction() {
   step.slope = m_load.dot(step.dx);
   for (std::size_t d = 0; d < step.dq.size(); ++d) step.slope += m_device_load[d].dot(step.dq[d]);
   predict(step);
-  return step;
 }
 
 bool Newton::flies(const Step& step) const {
@@ -116,6 +126,7 @@ bool Newton::make_ready(bool singular) {
   {
     Stopwatch watch(m_report.seconds_factor);
     m_linearised->take_factor(reduction);
+    if (m_turns_left > 0) m_turned_factor->take_factor(reduction, m_state.u);
   }
   begin_iteration();
   return serve();
@@ -145,6 +156,22 @@ bool Newton::find_step() {
       return true;
     }
   }
+}
+
+// The step by conjugate gradients; none where it would take another active set.
+bool Newton::find_step_by_turned_factor() {
+  Stopwatch watch(m_report.seconds_factor);
+  const std::vector<NodeRow> rows = rows_of(m_active);
+  m_reduction.emplace(m_eq.blocks().count(), rows);
+  std::optional<Eigen::VectorXd> dx = m_turned_factor->step(rows, m_state.u, m_load);
+  if (!dx) return false;
+  m_step = {};
+  m_step.dx = std::move(*dx);
+  complete(m_step, m_load);
+  const std::vector<char> used = m_active;
+  if (!update_active(m_step)) return true;
+  m_active = used;
+  return false;
 }
 
 }  // namespace brainshift

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include "brainshift/error.hpp"
+#include "linear/conjugate_gradients.hpp"
 #include "mesh/edge_nodes.hpp"
 
 namespace brainshift {
@@ -178,30 +179,20 @@ TwoLevelSolution solve_two_levels(const Equilibrium& eq, const Tangent& A,
     r -= A.times(s.y);
     z = precondition(r);
   }
-  Vector p = z;
-  double rho = r.dot(z);
-  for (s.iterations = 0; rho > tolerance * tolerance * whole; ++s.iterations) {
-    if (s.iterations == most) {
-      throw Error(ErrorCode::linear_solver,
-                  "the error estimate did not converge in " + std::to_string(most) + " iterations");
-    }
-    const Vector Ap = A.times(p);
-    const double curvature = p.dot(Ap);
-    if (!(curvature > 0.0)) {
-      throw Error(ErrorCode::linear_solver,
-                  "the error estimate needs a stable state: the tangent of the quadratic tets is "
-                  "not positive definite");
-    }
-    const double part = rho / curvature;
-    s.y += part * p;
-    r -= part * Ap;
-    z = precondition(r);
-    const double next = r.dot(z);
-    p = z + next / rho * p;
-    rho = next;
+  const auto run = conjugate_gradients([&A](const Vector& p) { return A.times(p); }, precondition, std::move(r),
+                                       std::move(z), tolerance * tolerance * whole, most, s.y);
+  if (!run.positive) {
+    throw Error(ErrorCode::linear_solver,
+                "the error estimate needs a stable state: the tangent of the quadratic tets is "
+                "not positive definite");
   }
+  if (run.rho > tolerance * tolerance * whole) {
+    throw Error(ErrorCode::linear_solver,
+                "the error estimate did not converge in " + std::to_string(most) + " iterations");
+  }
+  s.iterations = run.iterations;
   s.dx = A.reduction().expand(s.y) + A.reduction().particular();
-  s.residual = whole > 0.0 ? std::sqrt(rho / whole) : 0.0;
+  s.residual = whole > 0.0 ? std::sqrt(run.rho / whole) : 0.0;
   return s;
 }
 

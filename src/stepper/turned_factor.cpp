@@ -26,7 +26,8 @@ std::vector<Mat3> TurnedFactor::rotations(const Points& u) const {
 
 void TurnedFactor::take_factor(const Reduction& factored, const Points& u) {
   m_factored = factored;
-  m_then = rotations(u);
+  m_at = u;
+  m_then.clear();
 }
 
 // Blocks that rows hold have axes of their own, and do not turn.
@@ -41,6 +42,7 @@ Vector TurnedFactor::solve(const Vector& y) const {
 
 std::optional<Vector> TurnedFactor::step(const std::vector<NodeRow>& rows, const Points& u, const Vector& force) {
   const Reduction reduction(m_blocks.count(), rows, &*m_factored);
+  if (m_then.empty()) m_then = rotations(m_at);
   m_turns = rotations(u);
   for (std::size_t i = 0; i < m_turns.size(); ++i) {
     m_turns[i] = reduction.holds(Index(i)) ? Mat3(Mat3::Identity()) : Mat3(m_turns[i] * m_then[i].transpose());

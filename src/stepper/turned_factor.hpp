@@ -32,6 +32,7 @@ class TurnedFactor {
   const BlockMatrix& m_K;
   SpdSolver& m_solver;
   std::optional<Reduction> m_factored;
+  Points m_at;                         // displacement at the factor
   std::vector<Mat3> m_then, m_turns;   // per block: rotation at the factor, and from there to u
 };
 

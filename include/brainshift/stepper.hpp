@@ -106,7 +106,7 @@ const char* to_string(StepPhase phase);
 // leave free, in time with inertia and damping; without devices and the terms of given volumes of fluid,
 // which may hold what it does not.
 enum class Definiteness {
-  not_examined,        // nothing had to be solved
+  not_examined,        // nothing had to be solved, or one factor far from the state has served to the end
   positive_definite,   // where it was factored last, next to the state
   indefinite           // at the state: past a limit point, in buckling, or beyond the range of a law
 };

@@ -94,7 +94,7 @@ Newton::Outcome Newton::begin(const MechanicalState& start, const Offset& offset
   m_may_borrow = !m_euler && m_coupling.empty() && m_eq.contacts().size() == 0;
   m_linearised.emplace(m_cache.stiffness, *m_cache.solver, m_coupling.path_columns(m_eq.blocks()));
   m_turned_factor.emplace(m_eq.mesh(), m_eq.blocks(), m_cache.stiffness, *m_cache.solver);
-  m_turned = false;
+  m_turned = m_far_from_factor = false;
   m_turns_left = m_coupling.empty() ? turns_that_may_fail : 0;
   refresh();
   measure();

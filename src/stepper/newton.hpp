@@ -166,6 +166,7 @@ class Newton {
   bool m_found = false;                 // there is a step
   bool m_fresh = true;                  // the next iteration assembles and factorises
   bool m_turned = false;                // the next iteration assembles, and turns the factor at hand
+  bool m_far_from_factor = false;       // a turned factor has made a step since
   int m_turns_left = 0;                 // how many more may be too far away
   bool m_definite = false;              // with the projected tangent
   bool m_lost_stability = false;        // of the last tangent that was factored

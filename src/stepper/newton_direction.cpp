@@ -123,6 +123,7 @@ bool Newton::make_ready(bool singular) {
   const Reduction reduction(m_eq.blocks().count(), rows_of(m_active));
   if (!factorise(reduction, singular)) return false;
   m_factored = m_active;
+  m_far_from_factor = false;
   {
     Stopwatch watch(m_report.seconds_factor);
     m_linearised->take_factor(reduction);
@@ -165,6 +166,7 @@ bool Newton::find_step_by_turned_factor() {
   m_reduction.emplace(m_eq.blocks().count(), rows);
   std::optional<Eigen::VectorXd> dx = m_turned_factor->step(rows, m_state.u, m_load);
   if (!dx) return false;
+  m_far_from_factor = true;
   m_step = {};
   m_step.dx = std::move(*dx);
   complete(m_step, m_load);

@@ -5,9 +5,10 @@
 namespace brainshift {
 
 // The last tangent that was factored belongs to an iterate next to the state. Where it was not positive
-// definite that may have been the iterate's fault: the one at the state decides.
+// definite that may have been the iterate's fault: the one at the state decides. One that was turned is far away, and
+// conjugate gradients look at few directions.
 Definiteness Newton::examine_tangent() {
-  if (!m_linearised || !m_linearised->has_factor()) return Definiteness::not_examined;
+  if (!m_linearised || !m_linearised->has_factor() || m_far_from_factor) return Definiteness::not_examined;
   if (!m_lost_stability) return Definiteness::positive_definite;
   m_definite = false;   // the tangent as it is, with no part made positive
   assemble();

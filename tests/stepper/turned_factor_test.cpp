@@ -126,6 +126,7 @@ TEST(TurnedFactor, CarriesABarThatTurnsFarToItsBalance) {
     EXPECT_GT(stepper.displacement().cwiseAbs().maxCoeff(), 60.0) << "the scene does not turn far";
     EXPECT_LE(report.factorisations, c.factorisations) << to_string(c.law);
     EXPECT_LE(report.iterations, 25) << to_string(c.law);
+    EXPECT_EQ(report.tangent, Definiteness::not_examined) << "the factor is of another iterate";
   }
 }
 

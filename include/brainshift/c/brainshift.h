@@ -543,7 +543,7 @@ BRS_API brs_status brs_stepper_memory_estimate(brs_stepper* stepper, brs_memory_
 /* Tangent of the tissue on what fixed rows and contacts leave free, without devices and given volumes of
  * fluid, which may hold what it does not. */
 enum {
-  BRS_TANGENT_NOT_EXAMINED = 0,      /* nothing had to be solved */
+  BRS_TANGENT_NOT_EXAMINED = 0,      /* nothing had to be solved, or a factor far away has served to the end */
   BRS_TANGENT_POSITIVE_DEFINITE = 1, /* where it was factored last, next to the state */
   BRS_TANGENT_INDEFINITE = 2         /* at the state, which may not be stable; the log says so */
 };

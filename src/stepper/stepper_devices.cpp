@@ -56,9 +56,10 @@ DeviceId Stepper::insert(const BeamDevice& device, const Placement& placement, c
   const Vec3 outward = placement.outward.normalized();
   std::vector<PathPoint> path = cut_track(m_impl->m_mesh, positions(), placement.tip, outward,
                                           device.length(), options.least_spacing);
-  state.devices.push_back(place_device(state.next_device, device, {placement.tip, outward}, hold,
-                                       options, std::move(path)));
-  m_impl->set_give(positions(), state.devices.back());
+  InsertedDevice next =
+      place_device(state.next_device, device, {placement.tip, outward}, hold, options, std::move(path));
+  m_impl->set_give(positions(), next);
+  state.devices.push_back(std::move(next));   // last: whatever fails before leaves the devices as they are
   return state.next_device++;
 }
 

@@ -12,23 +12,44 @@ namespace brainshift::io {
 
 namespace {
 
-struct Temporary {
-  std::string path;
-  std::FILE* file = nullptr;
-};
-
-// "x": never opens a file that is there, be it another writer's temporary or a link set as a trap.
-Temporary open_beside(const std::string& path) {
-  constexpr int attempts = 100;
-  Temporary temporary;
-  for (int i = 0; i < attempts && !temporary.file; ++i) {
-    temporary.path = path + "." + std::to_string(i) + ".tmp";
-    temporary.file = std::fopen(temporary.path.c_str(), "wbx");
-    if (!temporary.file && errno != EEXIST) break;
+// A file beside the one to be written; gone again unless it has taken its place.
+class Temporary {
+ public:
+  // "x": never opens a file that is there, be it another writer's temporary or a link set as a trap.
+  explicit Temporary(const std::string& path) {
+    constexpr int attempts = 100;
+    for (int i = 0; i < attempts && !m_file; ++i) {
+      m_path = path + "." + std::to_string(i) + ".tmp";
+      m_file = std::fopen(m_path.c_str(), "wbx");
+      if (!m_file && errno != EEXIST) break;
+    }
+    if (!m_file) fail(path, std::string("cannot be written: ") + std::strerror(errno));
   }
-  if (!temporary.file) fail(path, std::string("cannot be written: ") + std::strerror(errno));
-  return temporary;
-}
+  ~Temporary() {
+    if (m_file) std::fclose(m_file);
+    if (!m_placed) std::remove(m_path.c_str());
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  // Of what went wrong, 0: nothing.
+  int write(const std::string& content) {
+    const bool written = std::fwrite(content.data(), 1, content.size(), m_file) == content.size();
+    const int error = errno;
+    const bool closed = std::fclose(m_file) == 0;
+    m_file = nullptr;
+    return written && closed ? 0 : written ? errno : error;
+  }
+  int place(const std::string& path) {
+    m_placed = std::rename(m_path.c_str(), path.c_str()) == 0;
+    return m_placed ? 0 : errno;
+  }
+
+ private:
+  std::string m_path;
+  std::FILE* m_file = nullptr;
+  bool m_placed = false;
+};
 
 }  // namespace
 
@@ -38,22 +59,10 @@ void write_whole_file(const std::string& path, const std::string& content) {
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     fail(path, "cannot be written: not a regular file");
   }
-  const Temporary temporary = open_beside(path);
-  const bool written =
-      std::fwrite(content.data(), 1, content.size(), temporary.file) == content.size();
-  const int write_error = errno;
-  const bool closed = std::fclose(temporary.file) == 0;
-  std::string reason;
-  if (!written || !closed) {
-    reason = std::strerror(written ? errno : write_error);
-  } else {
-    std::filesystem::rename(temporary.path, path, error);
-    if (error) reason = error.message();
-  }
-  if (!reason.empty()) {
-    std::remove(temporary.path.c_str());
-    fail(path, "cannot be written: " + reason);
-  }
+  Temporary temporary(path);
+  int wrong = temporary.write(content);
+  if (wrong == 0) wrong = temporary.place(path);
+  if (wrong != 0) fail(path, std::string("cannot be written: ") + std::strerror(wrong));
 }
 
 }  // namespace brainshift::io

@@ -4,6 +4,7 @@
 
 #include "brainshift/brainshift.hpp"
 #include "clock.hpp"
+#include "speed/one_iteration.hpp"
 #include "support/walled_block.hpp"
 
 namespace {
@@ -31,16 +32,7 @@ void candidates(benchmark::State& state) {
 void iteration_with_candidates(benchmark::State& state) {
   const Scene scene = test::walled_block(17, Index(state.range(0)));
   Stepper stepper(scene);
-  for (auto _ : state) {
-    stepper.begin_static();
-    const bench::Clock clock;
-    stepper.linearise();
-    stepper.solve();
-    stepper.update();
-    state.SetIterationTime(clock.cpu());
-    state.counters["factorisations"] = stepper.progress_report().factorisations;
-    stepper.reject();
-  }
+  bench::time_first_iteration(state, stepper, [&] { stepper.begin_static(); });
 }
 
 }  // namespace

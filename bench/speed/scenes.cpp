@@ -4,9 +4,9 @@
 #include <benchmark/benchmark.h>
 #include <Eigen/Geometry>
 
-#include "clock.hpp"
 #include "procedure.hpp"
 #include "speed/heads.hpp"
+#include "speed/one_iteration.hpp"
 
 namespace {
 
@@ -55,16 +55,7 @@ void iteration(benchmark::State& state) {
   tilt(10.0);
   if (!stepper.solve_static().converged()) throw Error(ErrorCode::internal, "no balance to begin with");
   tilt(10.0 + 1e-3 * double(state.range(0)));
-  for (auto _ : state) {
-    stepper.begin_step(1.0);
-    const bench::Clock clock;
-    stepper.linearise();
-    stepper.solve();
-    stepper.update();
-    state.SetIterationTime(clock.cpu());
-    state.counters["factorisations"] = stepper.progress_report().factorisations;
-    stepper.reject();
-  }
+  bench::time_first_iteration(state, stepper, [&] { stepper.begin_step(1.0); });
 }
 
 // 20 mL lost on each side, no devices; from files to the last stage but for reading them.

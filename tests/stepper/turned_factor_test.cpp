@@ -40,6 +40,15 @@ struct Sprung {
     scene.constraints.support("springs", all, Eigen::VectorXd::Constant(1, 0.5));
     return scene;
   }
+  // That of the rest shape; the body must outlive it.
+  TurnedFactor factor_at_rest() {
+    const Points rest = Points::Zero(scene.mesh.node_count(), 3);
+    linearise(rest);
+    EXPECT_TRUE(solver->factorise(K));
+    TurnedFactor factor(scene.mesh, balance.blocks(), K, *solver);
+    factor.take_factor(Reduction(balance.blocks().count(), {}), rest);
+    return factor;
+  }
   void linearise(const Points& u) { balance.tangent(u, balance.forces(u), {}, false, K); }
   static Mat3 rotation(double angle) {
     return Eigen::AngleAxisd(angle, Vec3(0.3, 1.0, -0.4).normalized()).toRotationMatrix();
@@ -55,12 +64,9 @@ Eigen::VectorXd force_on(const Sprung& body) {
 TEST(TurnedFactor, IsTheInverseAfterARigidRotation) {
   for (const Law law : {Law::corotational, Law::st_venant_kirchhoff, Law::stable_neo_hookean}) {
     Sprung body(law);
-    const Points rest = Points::Zero(body.scene.mesh.node_count(), 3), u = body.turned(2.0);
+    const Points u = body.turned(2.0);
     const Eigen::VectorXd f = force_on(body);
-    body.linearise(rest);
-    ASSERT_TRUE(body.solver->factorise(body.K));
-    TurnedFactor factor(body.scene.mesh, body.balance.blocks(), body.K, *body.solver);
-    factor.take_factor(Reduction(body.balance.blocks().count(), {}), rest);
+    TurnedFactor factor = body.factor_at_rest();
     body.linearise(u);
     const auto dx = factor.step({}, u, f);
     ASSERT_TRUE(dx.has_value());
@@ -73,8 +79,7 @@ TEST(TurnedFactor, IsTheInverseAfterARigidRotation) {
 
 TEST(TurnedFactor, LeavesATenthOfAStepAfterATurnAndABend) {
   Sprung body(Law::st_venant_kirchhoff);
-  const Points rest = Points::Zero(body.scene.mesh.node_count(), 3);
-  Points u = rest;
+  Points u = Points::Zero(body.scene.mesh.node_count(), 3);
   const Mat3 R = body.rotation(2.0);
   for (Eigen::Index i = 0; i < u.rows(); ++i) {
     const Vec3 p = body.scene.mesh.nodes().row(i);
@@ -83,10 +88,7 @@ TEST(TurnedFactor, LeavesATenthOfAStepAfterATurnAndABend) {
     u.row(i) = R * bent - p;
   }
   const Eigen::VectorXd f = force_on(body);
-  body.linearise(rest);
-  ASSERT_TRUE(body.solver->factorise(body.K));
-  TurnedFactor factor(body.scene.mesh, body.balance.blocks(), body.K, *body.solver);
-  factor.take_factor(Reduction(body.balance.blocks().count(), {}), rest);
+  TurnedFactor factor = body.factor_at_rest();
   body.linearise(u);
   const auto dx = factor.step({}, u, f);
   ASSERT_TRUE(dx.has_value());
@@ -101,11 +103,8 @@ TEST(TurnedFactor, LeavesATenthOfAStepAfterATurnAndABend) {
 
 TEST(TurnedFactor, HasNoStepWhereTheTangentIsNotPositive) {
   Sprung body(Law::st_venant_kirchhoff);
-  const Points rest = Points::Zero(body.scene.mesh.node_count(), 3), u = -0.6 * body.scene.mesh.nodes();
-  body.linearise(rest);
-  ASSERT_TRUE(body.solver->factorise(body.K));
-  TurnedFactor factor(body.scene.mesh, body.balance.blocks(), body.K, *body.solver);
-  factor.take_factor(Reduction(body.balance.blocks().count(), {}), rest);
+  const Points u = -0.6 * body.scene.mesh.nodes();
+  TurnedFactor factor = body.factor_at_rest();
   body.linearise(u);   // pressed far beyond the law's limit
   EXPECT_FALSE(factor.step({}, u, force_on(body)).has_value());
 }

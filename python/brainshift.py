@@ -1587,7 +1587,8 @@ class Stepper(Handle):
     def field(self, field):
         """A view of a field; displacement, velocity, iterate and farthest are the stepper's own, without a copy. Valid
         until the next solve, phase, restore, view of the same field, or the end of the stepper.
-        values: rows x columns. INVALID_ARGUMENT for an unknown field, and for one that is not there; rows and columns may be NULL.
+        values: rows x columns. INVALID_ARGUMENT for an unknown field, and for one that is not there; rows and
+        columns may be NULL.
         """
         values = POINTER(c_double)()
         rows = c_int64()

@@ -543,7 +543,8 @@ BRS_API brs_status brs_stepper_memory_estimate(brs_stepper* stepper, brs_memory_
 /* Tangent of the tissue on what fixed rows and contacts leave free, without devices and given volumes of
  * fluid, which may hold what it does not. */
 enum {
-  BRS_TANGENT_NOT_EXAMINED = 0,      /* nothing had to be solved, or a factor far away has served to the end */
+  BRS_TANGENT_NOT_EXAMINED = 0,      /* nothing had to be solved, or a factor from far away has served to
+                                        the end */
   BRS_TANGENT_POSITIVE_DEFINITE = 1, /* where it was factored last, next to the state */
   BRS_TANGENT_INDEFINITE = 2         /* at the state, which may not be stable; the log says so */
 };
@@ -638,7 +639,8 @@ enum {
 
 /* A view of a field; displacement, velocity, iterate and farthest are the stepper's own, without a copy. Valid
  * until the next solve, phase, restore, view of the same field, or the end of the stepper.
- * values: rows x columns. INVALID_ARGUMENT for an unknown field, and for one that is not there; rows and columns may be NULL. */
+ * values: rows x columns. INVALID_ARGUMENT for an unknown field, and for one that is not there; rows and
+ * columns may be NULL. */
 BRS_API brs_status brs_stepper_field(brs_stepper* stepper, int32_t field, const double** values,
                                      int64_t* rows, int64_t* columns);
 

@@ -24,17 +24,25 @@ Mat3 stress_from(const Lame& lame, const Polar& polar) {
   return polar.U * principal.asDiagonal() * polar.V.transpose();
 }
 
-double energy(const Lame& lame, const Mat3& G) {
-  const Mat3 D = stretch(G).D;
+double energy_of(const Lame& lame, const Mat3& D) {
   const double trace = D.trace();
   return lame.mu * D.squaredNorm() + 0.5 * lame.lambda * trace * trace;
 }
 
-Mat3 stress(const Lame& lame, const Mat3& G) {
+double energy(const Lame& lame, const Mat3& G) { return energy_of(lame, stretch(G).D); }
+
+double energy_and_stress(const Lame& lame, const Mat3& G, Mat3& P) {
   const Stretch s = stretch(G);
   Mat3 principal = 2.0 * lame.mu * s.D;
   principal.diagonal().array() += lame.lambda * s.D.trace();
-  return s.R * principal;
+  P = s.R * principal;
+  return energy_of(lame, s.D);
+}
+
+Mat3 stress(const Lame& lame, const Mat3& G) {
+  Mat3 P;
+  energy_and_stress(lame, G, P);
+  return P;
 }
 
 void tangent(const Lame& lame, const Mat3& G, bool definite, Mat3& P, Mat9& A) {
@@ -72,6 +80,6 @@ VolumeMeasure volume(const Mat3& G) {
 
 }  // namespace
 
-const LawFunctions corotational_law = {energy, stress, tangent, volume};
+const LawFunctions corotational_law = {energy, stress, energy_and_stress, tangent, volume};
 
 }  // namespace brainshift

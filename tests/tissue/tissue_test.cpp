@@ -72,9 +72,7 @@ Points random_motion(const Mesh& mesh, double by) {
 }
 
 Points force_at(const Tissue& tissue, const Points& u) {
-  Points f;
-  tissue.internal_force(u, f);
-  return f;
+  return tissue.response(u).force;
 }
 
 Indices identity(Index count) {

@@ -39,6 +39,8 @@ class EigenSolver final : public SpdSolver {
                [&](Index c) { x.col(c) = m_llt.solve(x.col(c)).eval(); });
   }
 
+  bool round_factor() override { return false; }
+
   void append(const SparseColumns& C) override {
     const auto before = m_columns.cols();
     Eigen::MatrixXd more = C;

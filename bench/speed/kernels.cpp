@@ -26,7 +26,8 @@ void element_forces(benchmark::State& state, const char* law) {
   options.law = law;
   SceneIds ids;
   const Equilibrium balance(make_scene(bench::head(), options, ids));
-  for (auto _ : state) benchmark::DoNotOptimize(balance.tissue().response(rest().u));
+  const Points& u = rest().u;
+  for (auto _ : state) benchmark::DoNotOptimize(balance.tissue().response(u));
   state.counters["tets"] = double(bench::head().brain.tet_count());
 }
 

@@ -165,8 +165,7 @@ double Equilibrium::external_work(const Points& u0, const Points& external0, con
 
 void Equilibrium::stored_tangent(const Points& u, bool definite, BlockMatrix& K) const {
   K.set_zero();
-  Points unused;
-  m_tissue.tangent(u, definite, *m_map, unused, K);
+  m_tissue.tangent(u, definite, *m_map, K);
   const Indices& block_of = m_blocks->block_of();
   for (Index i = 0; i < mesh().node_count(); ++i) {
     if (m_springs[i] > 0.0) {

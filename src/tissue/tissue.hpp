@@ -47,10 +47,8 @@ class Tissue {
   TissueResponse response(const Points& u) const;
   // slot_of[node]: block of the node in K; nodes tied together share one.
   ElementMap map_elements(const Indices& slot_of, const BlockMatrix& K) const;
-  // Force as above, and the tangent added to K. `definite`: each element's nearest positive
-  // semidefinite tangent.
-  void tangent(const Points& u, bool definite, const ElementMap& map, Points& force,
-               BlockMatrix& K) const;
+  // Added to K. `definite`: each element's nearest positive semidefinite tangent.
+  void tangent(const Points& u, bool definite, const ElementMap& map, BlockMatrix& K) const;
   // Consistent with the shape functions: N x 3 for gravity g (mm/s^2).
   Points gravity_force(const Vec3& gravity) const;
   double mass() const;  // kg
@@ -88,7 +86,7 @@ class Tissue {
   TissueResponse response(const std::vector<Element>& elements, const Points& u) const;
   template <class Element>
   void element_tangents(const std::vector<Element>& elements, const Points& u, bool definite,
-                        const ElementMap& map, Points& force, BlockMatrix& K) const;
+                        const ElementMap& map, BlockMatrix& K) const;
   void make_elements();
   void average_volumes();
   Lame element_constants(const Part& part) const;

@@ -181,10 +181,6 @@ TEST_F(OutOfMemory, SparseColumnsAreMadeOrNotMade) {
   const SparseColumns columns = make(), other(5, 5);
   fail_each_allocation_of("SparseColumns", [&] { make(); });
   fail_each_allocation_of("SparseColumns, copied", [&] { const SparseColumns copy(columns); });
-  fail_each_allocation_of("SparseColumns, moved", [&] {
-    SparseColumns from(columns);
-    const SparseColumns to(std::move(from));
-  });
   fail_each_allocation_of("SparseColumns, cut", [&] { const SparseColumns cut(columns.leftCols(2)); });
   fail_each_allocation_of("SparseColumns, multiplied", [&] {
     const SparseColumns product(columns.transpose() * columns);

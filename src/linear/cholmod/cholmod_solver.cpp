@@ -202,7 +202,7 @@ class CholmodSolver final : public SpdSolver {
 
   static cholmod_sparse view(const BlockMatrix& matrix) {
     cholmod_sparse a{};
-    a.nrow = a.ncol = std::size_t(3 * matrix.blocks());
+    a.nrow = a.ncol = 3 * std::size_t(matrix.blocks());
     a.nzmax = matrix.values().size();
     a.p = const_cast<int*>(matrix.scalar_columns().data());
     a.i = const_cast<int*>(matrix.scalar_rows().data());

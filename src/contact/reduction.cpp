@@ -237,6 +237,12 @@ Eigen::VectorXd Reduction::expand(const Eigen::VectorXd& y) const {
   return dx;
 }
 
+Indices Reduction::held_blocks() const {
+  Indices blocks;
+  for (const Block& b : m_held) blocks.push_back(b.block);
+  return blocks;
+}
+
 std::vector<Reduction::Held> Reduction::held_rows() const {
   std::vector<Held> rows;
   for (const Block& b : m_held) {

@@ -45,6 +45,7 @@ class Reduction {
     Index block;
   };
   std::vector<Held> held_rows() const;
+  Indices held_blocks() const;
   bool holds(Index block) const { return m_place[std::size_t(block)] >= 0; }
   // The motions that T gains when these blocks let go all their rows but those tagged `kept`, one per
   // column: (9) with y beside them and c as it is reaches every motion then. tags: of those rows.

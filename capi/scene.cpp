@@ -126,7 +126,7 @@ brs_status brs_scene_add_compartment(brs_scene* scene, const brs_compartment* co
                     "the scene has no CSF to fill a compartment: call brs_scene_set_csf first");
     std::vector<Compartment> all = s.compartments;
     all.push_back(compartment_of(given));
-    Csf(s.csf->density, s.csf->model, all, s.csf->reference_head);  // validates
+    const Csf valid(s.csf->density, s.csf->model, all, s.csf->reference_head);  // or it throws
     if (index) *index = int32_t(s.compartments.size());
     s.compartments = std::move(all);
   });

@@ -35,7 +35,7 @@ bool keep_going(const Context& context, const Progress& p) {
 }
 
 std::function<bool(const Progress&)> progress_of(std::shared_ptr<Context> context) {
-  return [context](const Progress& p) { return keep_going(*context, p); };
+  return [context = std::move(context)](const Progress& p) { return keep_going(*context, p); };
 }
 
 StepperOptions options_of(const brs_stepper_options& given, std::shared_ptr<Context> context) {

@@ -26,8 +26,8 @@ void element_forces(benchmark::State& state, const char* law) {
   options.law = law;
   SceneIds ids;
   const Equilibrium balance(make_scene(bench::head(), options, ids));
-  Points force = Points::Zero(rest().u.rows(), 3);
-  for (auto _ : state) balance.tissue().internal_force(rest().u, force);
+  const Points& u = rest().u;
+  for (auto _ : state) benchmark::DoNotOptimize(balance.tissue().response(u));
   state.counters["tets"] = double(bench::head().brain.tet_count());
 }
 
@@ -72,6 +72,16 @@ void analysis(benchmark::State& state) {
 
 void factor(benchmark::State& state) {
   for (auto _ : state) rest().solver->factorise(rest().tangent);
+}
+
+// With the factor in single precision, of a solver of its own.
+void solve_rounded(benchmark::State& state) {
+  const auto solver = make_spd_solver();
+  solver->analyse(rest().tangent);
+  solver->factorise(rest().tangent);
+  if (!solver->round_factor()) state.SkipWithError("the factor cannot be rounded");
+  Eigen::MatrixXd x = Eigen::MatrixXd::Ones(rest().unknowns(), 1);
+  for (auto _ : state) solver->solve(x);
 }
 
 void solve(benchmark::State& state) {
@@ -202,6 +212,7 @@ BENCHMARK(reduction)->Unit(benchmark::kMillisecond);
 BENCHMARK(product)->Unit(benchmark::kMillisecond);
 BENCHMARK(analysis)->Unit(benchmark::kMillisecond);
 BENCHMARK(factor)->Unit(benchmark::kMillisecond);
+BENCHMARK(solve_rounded)->Unit(benchmark::kMillisecond);
 BENCHMARK(solve)->Arg(1)->Arg(16)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK(compliance)->Arg(10)->Arg(30)->Arg(100)->Arg(300)->Arg(1000)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(complementarity, newton, brainshift::McpMethod::newton)

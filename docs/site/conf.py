@@ -34,7 +34,7 @@ NAVIGATION = [
                   "docs/mutations", "tests/robustness/README"]),
     ("Project", ["CONTRIBUTING", "CHANGELOG", "SECURITY", "THIRD_PARTY"]),
 ]
-HIDDEN = {"docs/decisions/README": "docs/decisions", "tests/robustness/README": "tests/robustness/fuzz"}
+HIDDEN = {"docs/decisions/README": "docs/decisions", "tests/robustness/README": "tests/robustness"}
 
 
 def toctree(caption, pages):
@@ -49,7 +49,7 @@ def add_navigation(app, name, source):
         if extra:
             source[0] += toctree("Charts", ["/" + page for page in extra if page not in known])
     elif name in HIDDEN:
-        pages = sorted("/" + str(p.relative_to(ROOT).with_suffix("")) for p in (ROOT / HIDDEN[name]).glob("*.md"))
+        pages = sorted("/" + str(p.relative_to(ROOT).with_suffix("")) for p in (ROOT / HIDDEN[name]).rglob("*.md"))
         source[0] += toctree("", [page for page in pages if page != "/" + name])
     elif name == "docs/reference":   # made by Doxygen beside the site
         source[0] += '\n<p><a href="../reference/html/index.html">To the reference</a></p>\n'

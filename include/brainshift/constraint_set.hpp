@@ -62,6 +62,7 @@ class ConstraintSet {
   const ConstraintGroup& group(ConstraintId id) const;  // throws invalid_argument
 
  private:
+  friend void skip_ids(ConstraintSet& set, ConstraintId next);   // of groups that a recording has not
   friend ConstraintSet quadratic(const ConstraintSet& set, const Mesh& linear, const Mesh& quadratic);
   ConstraintId add(ConstraintGroup group);
   ConstraintGroup& find(ConstraintId id);

@@ -103,7 +103,9 @@ class StaticNewton {
   // Makes the tangent positive definite: adds growing parts of its own scale.
   bool shift() {
     Eigen::VectorXd scale = m_K.diagonal_entries().cwiseAbs();
-    for (m_shift = 1e-6; m_shift < 1e6; m_shift *= 4.0) {
+    constexpr int most = 20;  // the last: 3e5
+    for (int k = 0; k < most; ++k) {
+      m_shift = std::ldexp(1e-6, 2 * k);
       BlockTridiagonal shifted = m_K;
       for (Index i = 0; i < shifted.blocks(); ++i) {
         shifted.diagonal(i).diagonal() += m_shift * scale.segment<6>(6 * i);
@@ -158,7 +160,9 @@ class StaticNewton {
   bool descend(const Eigen::VectorXd& force, BeamState& state) {
     const double slope = m_residual.dot(m_step);  // what the energy falls by, to first order
     const double noise = 1e-14 * (std::abs(m_energy) + std::abs(force.dot(m_step)));
-    for (double part = 1.0; part > 1e-12; part *= 0.5) {
+    constexpr int most_halvings = 39;  // to 2e-12
+    for (int halvings = 0; halvings <= most_halvings; ++halvings) {
+      const double part = std::ldexp(1.0, -halvings);
       BeamState next = state;
       const Eigen::VectorXd step = part * m_step;
       m_beam.update(next, step);

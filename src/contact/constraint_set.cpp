@@ -17,8 +17,8 @@ void require_pairs(const std::string& name, const Indices& nodes, const Indices&
 }
 
 // One value for all nodes, or one each.
-Eigen::VectorXd per_node(const std::string& name, const Indices& nodes,
-                         const Eigen::VectorXd& values, const std::string& what) {
+Eigen::VectorXd per_node(const std::string& name, const Indices& nodes, Eigen::VectorXd values,
+                         const std::string& what) {
   const auto count = Eigen::Index(nodes.size());
   if (values.size() != 1 && values.size() != count) {
     throw Error(ErrorCode::size_mismatch, "constraint '" + name + "': " + std::to_string(count) +
@@ -28,7 +28,8 @@ Eigen::VectorXd per_node(const std::string& name, const Indices& nodes,
   if (!values.allFinite()) {
     throw Error(ErrorCode::not_finite, "constraint '" + name + "': " + what + " are not finite");
   }
-  return values.size() == count ? values : Eigen::VectorXd::Constant(count, values[0]);
+  if (values.size() != count) values = Eigen::VectorXd::Constant(count, values[0]).eval();
+  return values;
 }
 
 void require(bool good, const std::string& name, const std::string& what) {
@@ -69,7 +70,7 @@ ConstraintId ConstraintSet::tie(std::string name, Indices nodes, Indices partner
 ConstraintId ConstraintSet::support(std::string name, Indices nodes, Eigen::VectorXd stiffness) {
   ConstraintGroup group;
   group.kind = ConstraintKind::support;
-  group.stiffness = per_node(name, nodes, stiffness, "stiffnesses");
+  group.stiffness = per_node(name, nodes, std::move(stiffness), "stiffnesses");
   group.name = std::move(name);
   group.nodes = std::move(nodes);
   require(group.stiffness.size() == 0 || group.stiffness.minCoeff() >= 0.0, group.name,
@@ -83,7 +84,7 @@ ConstraintId ConstraintSet::obstacle(std::string name, Indices nodes, Surface su
   if (offsets.size() == 0) offsets = Eigen::VectorXd::Zero(1);
   ConstraintGroup group;
   group.kind = ConstraintKind::obstacle;
-  group.offsets = per_node(name, nodes, offsets, "offsets");
+  group.offsets = per_node(name, nodes, std::move(offsets), "offsets");
   group.name = std::move(name);
   group.nodes = std::move(nodes);
   group.surface = std::move(surface);

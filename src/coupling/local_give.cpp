@@ -60,7 +60,8 @@ Points rings_about(const Vec3& centre, const Vec3& along, double radius, std::si
   const Vec3 first = along.unitOrthogonal(), second = along.cross(first);
   Points points(shrinkings * ring_points, 3);
   for (int k = 0; k < shrinkings * ring_points; ++k) {
-    const double e = radius * double(shrinkings - k / ring_points) / shrinkings;
+    const int ring = k / ring_points;
+    const double e = radius * double(shrinkings - ring) / shrinkings;
     const double angle = 2.0 * pi * (k % ring_points + 0.5 * double(p % 2)) / ring_points;
     points.row(k) = (centre + e * (std::cos(angle) * first + std::sin(angle) * second)).transpose();
   }
@@ -95,7 +96,8 @@ void spread_ties(const Tissue& tissue, const Points& positions, const Vec3& outw
       ring.push_back({found.tet[at], found.weights.row(Eigen::Index(at)).transpose()});
       if (ring.size() < ring_points) continue;
       path[p].ring = std::move(ring);
-      path[p].spread = radii[p] * double(shrinkings - k / ring_points) / shrinkings;
+      const int shrunk = k / ring_points;
+      path[p].spread = radii[p] * double(shrinkings - shrunk) / shrinkings;
       ring.clear();
     }
   }

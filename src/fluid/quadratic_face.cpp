@@ -67,7 +67,7 @@ QuadraticFace::QuadraticFace(const Points& x, const Mesh& mesh, Index f, const V
     : m_up(up) {
   for (int k = 0; k < 3; ++k) {
     m_nodes[std::size_t(k)] = mesh.surface()(f, k);
-    m_nodes[std::size_t(k + 3)] = mesh.surface_edge_nodes()(f, k);
+    m_nodes[std::size_t(k) + 3] = mesh.surface_edge_nodes()(f, k);
   }
   for (int i = 0; i < 6; ++i) m_x.row(i) = x.row(m_nodes[std::size_t(i)]);
   m_heights = m_x * up;

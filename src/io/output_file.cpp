@@ -26,8 +26,9 @@ class Temporary {
     if (!m_file) fail(path, std::string("cannot be written: ") + std::strerror(errno));
   }
   ~Temporary() {
-    if (m_file) std::fclose(m_file);
-    if (!m_placed) std::remove(m_path.c_str());
+    // Open or not placed only after an error, which is the one that is told.
+    if (m_file) (void)std::fclose(m_file);
+    if (!m_placed) (void)std::remove(m_path.c_str());
   }
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;

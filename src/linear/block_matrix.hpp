@@ -6,13 +6,10 @@
 #include <algorithm>
 #include <vector>
 
-#include <Eigen/SparseCore>
-
 #include "brainshift/types.hpp"
+#include "linear/sparse_columns.hpp"
 
 namespace brainshift {
-
-using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
 class BlockMatrix {
  public:

@@ -28,6 +28,11 @@ class SpdSolver {
   // Overwrites each column of `x` with the solution for it.
   virtual void solve(Eigen::MatrixXd& x) = 0;
 
+  // Rounds the factor to single precision: until the next factorise() it serves solve() alone, as well as a
+  // preconditioner needs and in half the time; what needs more throws Error(internal). False: some entry has no such
+  // value, or the backend none such; all is as it was.
+  virtual bool round_factor() = 0;
+
   // Columns C kept beside the factor as Y = L^-1 P C: cheap where each has few entries (the rows it
   // reaches alone are worked on). They are forgotten with the factor.
   virtual void append(const SparseColumns& C) = 0;

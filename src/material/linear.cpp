@@ -34,6 +34,6 @@ VolumeMeasure volume(const Mat3& G) { return {G.trace(), Mat3::Identity(), Mat9:
 
 }  // namespace
 
-const LawFunctions linear_law = {energy, stress, tangent, volume};
+const LawFunctions linear_law = {energy, stress, one_after_the_other<energy, stress>, tangent, nullptr, volume};
 
 }  // namespace brainshift

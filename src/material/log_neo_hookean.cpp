@@ -106,6 +106,6 @@ VolumeMeasure volume(const Mat3& G) {
 
 }  // namespace
 
-const LawFunctions log_neo_hookean_law = {energy, stress, tangent, volume};
+const LawFunctions log_neo_hookean_law = {energy, stress, one_after_the_other<energy, stress>, tangent, nullptr, volume};
 
 }  // namespace brainshift

@@ -69,6 +69,6 @@ VolumeMeasure volume(const Mat3& G) {
 
 }  // namespace
 
-const LawFunctions st_venant_kirchhoff_law = {energy, stress, tangent, volume};
+const LawFunctions st_venant_kirchhoff_law = {energy, stress, one_after_the_other<energy, stress>, tangent, nullptr, volume};
 
 }  // namespace brainshift

@@ -69,6 +69,6 @@ VolumeMeasure volume(const Mat3& G) {
 
 }  // namespace
 
-const LawFunctions stable_neo_hookean_law = {energy, stress, tangent, volume};
+const LawFunctions stable_neo_hookean_law = {energy, stress, one_after_the_other<energy, stress>, tangent, nullptr, volume};
 
 }  // namespace brainshift

@@ -1,6 +1,7 @@
 #include "mcp/newton.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "mcp/minimum_norm.hpp"
@@ -18,9 +19,11 @@ double merit(const Problem& problem, const VectorXd& z) {
 
 // The longest of 1, 1/2, 1/4, ... that lowers the merit; 0 where none does.
 double step_length(const Problem& problem, const VectorXd& z, const VectorXd& step) {
-  constexpr double shortest = 1.0 / 1024.0, sufficient = 1e-4;
+  constexpr int most_halvings = 10;
+  constexpr double sufficient = 1e-4;
   const double start = merit(problem, z);
-  for (double length = 1.0; length >= shortest; length *= 0.5) {
+  for (int halvings = 0; halvings <= most_halvings; ++halvings) {
+    const double length = std::ldexp(1.0, -halvings);
     if (merit(problem, z + length * step) <= (1.0 - sufficient * length) * start) return length;
   }
   return 0.0;

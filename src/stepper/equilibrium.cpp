@@ -145,29 +145,27 @@ Points Equilibrium::external_force(const Points& u, std::vector<double>* heads) 
 
 Forces Equilibrium::forces(const Points& u) const {
   Forces f;
-  m_tissue.internal_force(u, f.internal);
+  TissueResponse tissue = m_tissue.response(u);
+  f.internal = std::move(tissue.force);
   f.internal.array() += u.array().colwise() * m_springs.array();
+  f.stored = tissue.energy + 0.5 * m_springs.dot(u.rowwise().squaredNorm());
+  f.jacobians = std::move(tissue.jacobians);
   f.external = external_force(u, &f.heads);
   m_contacts.sample(u, f.gaps);
   return f;
 }
 
-double Equilibrium::stored_energy(const Points& u) const {
-  return m_tissue.energy(u) + 0.5 * m_springs.dot(u.rowwise().squaredNorm());
-}
-
-double Equilibrium::external_work(const Points& u0, const Points& external0,
-                                  const Points& u1) const {
+double Equilibrium::external_work(const Points& u0, const Points& external0, const Points& u1,
+                                  const Points& external1) const {
   const Points step = u1 - u0;
   if (!m_fluid) return external0.cwiseProduct(step).sum();
-  const Points middle = external_force(0.5 * (u0 + u1)), end = external_force(u1);
-  return ((external0 + 4.0 * middle + end) / 6.0).cwiseProduct(step).sum();
+  const Points middle = external_force(0.5 * (u0 + u1));
+  return ((external0 + 4.0 * middle + external1) / 6.0).cwiseProduct(step).sum();
 }
 
 void Equilibrium::stored_tangent(const Points& u, bool definite, BlockMatrix& K) const {
   K.set_zero();
-  Points unused;
-  m_tissue.tangent(u, definite, *m_map, unused, K);
+  m_tissue.tangent(u, definite, *m_map, K);
   const Indices& block_of = m_blocks->block_of();
   for (Index i = 0; i < mesh().node_count(); ++i) {
     if (m_springs[i] > 0.0) {

@@ -17,6 +17,8 @@ namespace brainshift {
 // Forces at one displacement (N x 3 each, mN), and gaps.
 struct Forces {
   Points internal;                  // of tissue and supports: gradient of the stored energy
+  double stored = 0.0;              // that energy, uJ
+  Eigen::VectorXd jacobians;        // of the tets
   Points external;                  // gravity and fluid, reference taken off
   std::vector<double> heads;        // mm, per compartment
   std::vector<GapSample> gaps;      // per contact row
@@ -43,10 +45,9 @@ class Equilibrium {
   Forces forces(const Points& u) const;
   // Only the external force; cheap beside the tissue's.
   Points external_force(const Points& u, std::vector<double>* heads = nullptr) const;
-  double stored_energy(const Points& u) const;   // uJ, tissue and supports
   // Work of the external force along the straight way from u0 to u1 (uJ), by Simpson's rule: the
   // fluid's load has no potential where levels differ, its work always exists.
-  double external_work(const Points& u0, const Points& external0, const Points& u1) const;
+  double external_work(const Points& u0, const Points& external0, const Points& u1, const Points& external1) const;
 
   // Throws rigid_mode naming a body that nothing holds: it has no quasi-static equilibrium.
   void check_supported() const;

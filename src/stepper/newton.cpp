@@ -84,7 +84,6 @@ Newton::Outcome Newton::begin(const MechanicalState& start, const Offset& offset
   m_state = start;
   m_offset = offset;
   m_load_factor = load_factor;
-  m_potential.reset();
   m_definite = m_lost_stability = false;
   m_fresh = true;
   m_iteration = 0;
@@ -133,7 +132,6 @@ Newton::Outcome Newton::go_on() {
 Newton::Outcome Newton::return_from_credit() {
   m_state = std::move(m_credit->from);
   m_credit.reset();
-  m_potential.reset();
   m_definite = false;
   m_fresh = true;
   m_turned = false;
@@ -174,7 +172,7 @@ Newton::Outcome Newton::take(double part, MechanicalState& next) {
   if (small_enough(m_last)) return Outcome::converged;
   const bool was_fresh = m_fresh;
   m_turned = part == 1.0 && may_turn();
-  m_fresh = !m_turned && !(part == 1.0 && serves_again(was_fresh));
+  m_fresh = !m_turned && !(part == 1.0 && !m_far_from_factor && serves_again(was_fresh));
   return Outcome::ongoing;
 }
 

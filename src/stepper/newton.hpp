@@ -109,9 +109,8 @@ class Newton {
   Outcome return_from_credit();
   Outcome take(double part, MechanicalState& next);
   double length_of_step(double part) const;
-  double potential(const Points& u, const std::vector<DeviceMotion>& motions) const;
+  double potential(const Forces& forces, const Points& u, const std::vector<DeviceMotion>& motions) const;
   double search(const Step& step, MechanicalState& next);
-  bool no_new_inversion(const Points& u, const Eigen::VectorXd& before) const;
   void make_feasible(double part, Points& u, std::vector<char>& touched) const;
   void estimate_multipliers();
   void measure();
@@ -151,7 +150,6 @@ class Newton {
   Offset m_offset;
   double m_load_factor = 1.0;
   Eigen::VectorXd m_load;               // external - internal + offset, on blocks; no rows
-  std::optional<double> m_potential;    // at m_state, where it is known
   DeviceVectors m_device_load;          // -gradient + offset, held dofs 0; no rows
   std::vector<CouplingRow> m_couplings;
   std::vector<BlockTridiagonalFactor> m_device_factors;
@@ -166,7 +164,7 @@ class Newton {
   bool m_found = false;                 // there is a step
   bool m_fresh = true;                  // the next iteration assembles and factorises
   bool m_turned = false;                // the next iteration assembles, and turns the factor at hand
-  bool m_far_from_factor = false;       // a turned factor has made a step since
+  bool m_far_from_factor = false;       // a turned factor has been asked for a step since, which rounds it
   int m_turns_left = 0;                 // how many more may be too far away
   bool m_definite = false;              // with the projected tangent
   bool m_lost_stability = false;        // of the last tangent that was factored

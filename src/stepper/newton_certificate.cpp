@@ -93,10 +93,10 @@ bool Newton::certify(const MechanicalState& state) {
 
 Eigen::Index Newton::describe() {
   const Points& u = m_state.u;
-  m_report.energy = m_eq.stored_energy(u) + device_energy(m_state.devices);
+  m_report.energy = m_forces.stored + device_energy(m_state.devices);
   m_report.kinetic_energy = m_euler ? m_euler->kinetic_energy(u, m_state.devices) : 0.0;
   Eigen::Index tet = 0;
-  m_report.smallest_jacobian = m_eq.tissue().jacobians(u).minCoeff(&tet);
+  m_report.smallest_jacobian = m_forces.jacobians.minCoeff(&tet);
   return tet;
 }
 

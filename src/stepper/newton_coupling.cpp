@@ -154,8 +154,8 @@ void Newton::Coupled::eliminate_turns() {
 void Newton::Coupled::drop_turns() {
   turns.clear();
   const auto cut = [this](Eigen::MatrixXd& columns) { columns = columns.leftCols(count).eval(); };
-  N = N.leftCols(count).eval();
-  C = C.leftCols(count).eval();
+  N = SparseColumns(N.leftCols(count));
+  C = SparseColumns(C.leftCols(count));
   for (Eigen::MatrixXd& part : D) cut(part);
   for (Eigen::MatrixXd& part : Y) cut(part);
   W = W.topLeftCorner(count, count).eval();

@@ -164,9 +164,9 @@ bool Newton::find_step_by_turned_factor() {
   Stopwatch watch(m_report.seconds_factor);
   const std::vector<NodeRow> rows = rows_of(m_active);
   m_reduction.emplace(m_eq.blocks().count(), rows);
+  m_far_from_factor = true;
   std::optional<Eigen::VectorXd> dx = m_turned_factor->step(rows, m_state.u, m_load);
   if (!dx) return false;
-  m_far_from_factor = true;
   m_step = {};
   m_step.dx = std::move(*dx);
   complete(m_step, m_load);

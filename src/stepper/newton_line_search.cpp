@@ -11,15 +11,15 @@ namespace {
 
 constexpr double closed_gap = 1e-13;   // diameters
 
-}  // namespace
-
-bool Newton::no_new_inversion(const Points& u, const Eigen::VectorXd& before) const {
-  const Eigen::VectorXd now = m_eq.tissue().jacobians(u);
+// Neither a tet that was whole and is inverted, nor anything that is no number.
+bool no_new_inversion(const Eigen::VectorXd& before, const Eigen::VectorXd& now) {
   for (Eigen::Index t = 0; t < now.size(); ++t) {
     if (!(now[t] > 0.0) && before[t] > 0.0) return false;
   }
   return true;
 }
+
+}  // namespace
 
 // Moves nodes back onto the surfaces they have passed, and active ones to the gap the step gives
 // them (what is left of theirs after `part` of the way), so that every iterate is feasible and the
@@ -61,8 +61,8 @@ void Newton::make_feasible(double part, Points& u, std::vector<char>& touched) c
 
 // What a step lowers: the energy stored, and in a step in time the incremental potential of inertia
 // and damping, docs/theory.md (11).
-double Newton::potential(const Points& u, const std::vector<DeviceMotion>& motions) const {
-  const double stored = m_eq.stored_energy(u) + device_energy(motions);
+double Newton::potential(const Forces& forces, const Points& u, const std::vector<DeviceMotion>& motions) const {
+  const double stored = forces.stored + device_energy(motions);
   return m_euler ? stored + m_euler->potential(u, motions) : stored;
 }
 
@@ -85,11 +85,8 @@ void Newton::pay(double change) {
 double Newton::search(const Step& step, MechanicalState& next) {
   Stopwatch watch(m_report.seconds_line_search);
   const Points& u0 = m_state.u;
-  const Points external0 = m_forces.external;
-  if (!m_potential) m_potential = potential(u0, m_state.devices);
-  const double energy0 = *m_potential;
+  const double energy0 = potential(m_forces, u0, m_state.devices);
   const double rows0 = merit_of_rows(m_state, step.weight);
-  const Eigen::VectorXd jacobians = m_eq.tissue().jacobians(u0);
   double pressed = step.weight * double(m_couplings.size());   // mN
   for (double multiplier : step.multipliers) pressed += std::abs(multiplier);
   std::vector<char> touched;
@@ -99,12 +96,14 @@ double Newton::search(const Step& step, MechanicalState& next) {
     m_eq.blocks().scatter_add(step.dx, part, next.u);
     make_feasible(part, next.u, touched);
     move_devices(step, part, next);
-    if (!next.u.allFinite() || !no_new_inversion(next.u, jacobians)) {
+    const bool finite = next.u.allFinite();
+    Forces forces = finite ? m_eq.forces(next.u) : Forces();
+    if (!finite || !no_new_inversion(m_forces.jacobians, forces.jacobians)) {
       part *= 0.5;
       continue;
     }
-    const double energy1 = potential(next.u, next.devices);
-    double work = m_eq.external_work(u0, external0, next.u) +
+    const double energy1 = potential(forces, next.u, next.devices);
+    double work = m_eq.external_work(u0, m_forces.external, next.u, forces.external) +
                   m_offset.tissue.dot(m_eq.blocks().gather_motion(next.u - u0));
     for (std::size_t d = 0; d < step.dq.size(); ++d) {
       work += part * m_offset.devices[d].dot(step.dq[d]);
@@ -117,7 +116,8 @@ double Newton::search(const Step& step, MechanicalState& next) {
     if (decreased || (attempt == 0 && borrow(change))) {
       pay(change);
       m_active = touched;
-      m_potential = energy1;
+      m_forces = std::move(forces);
+      m_forces_at = next.u;
       return part;
     }
     // Minimum of the parabola through value and slope at 0 and the value here, kept in [0.1, 0.5].

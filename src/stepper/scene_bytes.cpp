@@ -2,6 +2,7 @@
 #include "stepper/scene_bytes.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "stepper/stepper_impl.hpp"
 
@@ -76,16 +77,22 @@ ConstraintId add_group(ByteReader& r, const std::vector<Surface>& surfaces, Cons
   r.fail("there is no such kind of constraint");
 }
 
+}  // namespace
+
+void skip_ids(ConstraintSet& set, ConstraintId next) { set.m_next = next; }
+
+namespace {
+
 ConstraintSet get_constraints(ByteReader& r) {
   std::vector<Surface> surfaces;
   for (std::size_t left = r.count(8); left > 0; --left) surfaces.push_back(get_surface(r));
   ConstraintSet set;
   ConstraintId next = 0;
-  for (std::size_t left = r.count(8); left > 0; --left, ++next) {
+  for (std::size_t left = r.count(8); left > 0; --left) {
     const auto id = r.get<ConstraintId>();
-    // Ids in between were those of groups that have been removed.
-    for (; next < id; ++next) set.remove(set.fix("removed", {0}));
-    if (add_group(r, surfaces, set) != id) r.fail("the ids of constraints do not rise");
+    if (id < next || id == std::numeric_limits<ConstraintId>::max()) r.fail("the ids of constraints do not rise");
+    skip_ids(set, id);   // those in between were of groups that have been removed
+    next = add_group(r, surfaces, set) + 1;
   }
   return set;
 }
@@ -248,15 +255,20 @@ Bytes Stepper::record() const {
   return w.sealed(BytesKind::recording);
 }
 
-Stepper Stepper::replay(const Bytes& bytes, std::function<bool(const Progress&)> progress) {
+Recording read_recording(const Bytes& bytes) {
   ByteReader r(bytes, BytesKind::recording);
   Scene scene = get_scene(r);
   StepperOptions options = get_options(r);
-  options.progress = std::move(progress);
-  const auto state = r.get<Bytes>();
+  auto state = r.get<Bytes>();
   r.expect_end();
-  Stepper stepper(std::move(scene), std::move(options));
-  stepper.restore(stepper.read_snapshot(state));
+  return {std::move(scene), std::move(options), std::move(state)};
+}
+
+Stepper Stepper::replay(const Bytes& bytes, std::function<bool(const Progress&)> progress) {
+  Recording recording = read_recording(bytes);
+  recording.options.progress = std::move(progress);
+  Stepper stepper(std::move(recording.scene), std::move(recording.options));
+  stepper.restore(stepper.read_snapshot(recording.state));
   return stepper;
 }
 

@@ -42,7 +42,10 @@ Vector TurnedFactor::solve(const Vector& y) const {
 
 std::optional<Vector> TurnedFactor::step(const std::vector<NodeRow>& rows, const Points& u, const Vector& force) {
   const Reduction reduction(m_blocks.count(), rows, &*m_factored);
-  if (m_then.empty()) m_then = rotations(m_at);
+  if (m_then.empty()) {
+    m_then = rotations(m_at);
+    m_solver.round_factor();   // in double precision where it cannot be
+  }
   m_turns = rotations(u);
   for (std::size_t i = 0; i < m_turns.size(); ++i) {
     m_turns[i] = reduction.holds(Index(i)) ? Mat3(Mat3::Identity()) : Mat3(m_turns[i] * m_then[i].transpose());

@@ -20,7 +20,7 @@ class TurnedFactor {
   void take_factor(const Reduction& factored, const Points& u);
   // Motion of the blocks under `force` at the displacement u, with K of there, that obeys `rows`, those of the
   // factor as they are today: a tenth of the residual is left, in the norm of the preconditioner. None: that took
-  // more than a factor is worth, or K is not positive there.
+  // more than a factor is worth, or K is not positive there. Rounds the factor, which is of no use elsewhere then.
   std::optional<Eigen::VectorXd> step(const std::vector<NodeRow>& rows, const Points& u, const Eigen::VectorXd& force);
 
  private:

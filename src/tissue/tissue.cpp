@@ -1,6 +1,8 @@
 #include "tissue/tissue.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "brainshift/error.hpp"
@@ -115,6 +117,24 @@ std::vector<double> Tissue::volume_measures(const Points& u, std::vector<Mat3>* 
   return theta;
 }
 
+namespace {
+
+constexpr double no_jacobian = std::numeric_limits<double>::infinity();
+
+// What is no number is smaller than any.
+void take_smaller(double J, double& least) {
+  if (!std::isnan(least) && !(J >= least)) least = J;
+}
+
+// In the order of the tets, whatever the threads.
+double sum_of(const std::vector<double>& energies) {
+  double sum = 0.0;
+  for (double energy : energies) sum += energy;
+  return sum;
+}
+
+}  // namespace
+
 double Tissue::energy(const Points& u) const {
   std::vector<double> energies(std::size_t(m_mesh.tet_count()), 0.0);
   std::visit(
@@ -128,32 +148,41 @@ double Tissue::energy(const Points& u) const {
         });
       },
       *m_elements);
-  double sum = 0.0;  // in the order of the tets, whatever the threads
-  for (double energy : energies) sum += energy;
-  if (!m_volume.empty()) sum += m_volume.energy(volume_measures(u));
-  return sum;
+  const double sum = sum_of(energies);
+  return m_volume.empty() ? sum : sum + m_volume.energy(volume_measures(u));
 }
 
-void Tissue::internal_force(const Points& u, Points& force) const {
-  std::visit([&](const auto& elements) { element_forces(elements, u, force); }, *m_elements);
+TissueResponse Tissue::response(const Points& u) const {
+  return std::visit([&](const auto& elements) { return response(elements, u); }, *m_elements);
 }
 
 template <class Element>
-void Tissue::element_forces(const std::vector<Element>& elements, const Points& u,
-                            Points& force) const {
+TissueResponse Tissue::response(const std::vector<Element>& elements, const Points& u) const {
+  TissueResponse all;
   std::vector<Mat3> gradients;
-  std::vector<double> pressures;
-  if (!m_volume.empty()) pressures = m_volume.pressures(volume_measures(u, &gradients));
+  std::vector<double> measures, pressures;
+  if (!m_volume.empty()) {
+    measures = volume_measures(u, &gradients);
+    pressures = m_volume.pressures(measures);
+  }
   std::vector<typename Element::Rows> forces(elements.size(), Element::Rows::Zero());
+  std::vector<double> energies(elements.size(), 0.0);
+  all.jacobians = Eigen::VectorXd::Constant(Eigen::Index(elements.size()), no_jacobian);
   for_all_tets([&](const LawFunctions& law, const Lame& lame, Index t) {
     const Element& e = elements[std::size_t(t)];
     for (int q = 0; q < Element::points; ++q) {
-      Mat3 P = law.stress(lame, e.displacement_gradient(u, nodes_of(t), q));
+      const Mat3 G = e.displacement_gradient(u, nodes_of(t), q);
+      Mat3 P;
+      energies[std::size_t(t)] += e.volumes[q] * law.energy_and_stress(lame, G, P);
       if (!pressures.empty()) P += pressures[std::size_t(t)] * gradients[std::size_t(t)];
       forces[std::size_t(t)] += e.volumes[q] * e.gradients[q] * P.transpose();
+      take_smaller(1.0 + volume_change(G), all.jacobians[t]);
     }
   });
-  scatter(forces, force);
+  scatter(forces, all.force);
+  all.energy = sum_of(energies);
+  if (!m_volume.empty()) all.energy += m_volume.energy(measures);
+  return all;
 }
 
 Points Tissue::gravity_force(const Vec3& gravity) const {
@@ -218,12 +247,10 @@ Eigen::VectorXd Tissue::jacobians(const Points& u) const {
       [&](const auto& elements) {
         for_all_tets([&](const LawFunctions&, const Lame&, Index t) {
           const auto& e = elements[std::size_t(t)];
-          double least = 1.0 + volume_change(e.displacement_gradient(u, nodes_of(t), 0));
-          for (int q = 1; q < e.points; ++q) {
-            const double J = 1.0 + volume_change(e.displacement_gradient(u, nodes_of(t), q));
-            if (!(J >= least)) least = J;
+          result[t] = no_jacobian;
+          for (int q = 0; q < e.points; ++q) {
+            take_smaller(1.0 + volume_change(e.displacement_gradient(u, nodes_of(t), q)), result[t]);
           }
-          result[t] = least;
         });
       },
       *m_elements);

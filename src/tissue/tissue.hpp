@@ -24,6 +24,13 @@ struct ElementMap {
   PatchMap patches;                       // of nodes that share a volume change
 };
 
+// Of all tets at some displacement.
+struct TissueResponse {
+  Points force;                // mN, N x 3; gradient of the energy
+  double energy = 0.0;         // uJ
+  Eigen::VectorXd jacobians;   // M; Tissue::jacobians
+};
+
 class Tissue {
  public:
   // Throws invalid_argument: a region with no material or with two; nodal volumes on quadratic tets.
@@ -37,14 +44,11 @@ class Tissue {
   void set_threads(int threads) { m_threads = threads; }
 
   double energy(const Points& u) const;  // uJ
-  // Internal force: gradient of the energy (mN), N x 3.
-  void internal_force(const Points& u, Points& force) const;
+  TissueResponse response(const Points& u) const;
   // slot_of[node]: block of the node in K; nodes tied together share one.
   ElementMap map_elements(const Indices& slot_of, const BlockMatrix& K) const;
-  // Force as above, and the tangent added to K. `definite`: each element's nearest positive
-  // semidefinite tangent.
-  void tangent(const Points& u, bool definite, const ElementMap& map, Points& force,
-               BlockMatrix& K) const;
+  // Added to K. `definite`: each element's nearest positive semidefinite tangent.
+  void tangent(const Points& u, bool definite, const ElementMap& map, BlockMatrix& K) const;
   // Consistent with the shape functions: N x 3 for gravity g (mm/s^2).
   Points gravity_force(const Vec3& gravity) const;
   double mass() const;  // kg
@@ -79,10 +83,10 @@ class Tissue {
   template <class Rows>
   void scatter(const std::vector<Rows>& forces, Points& nodal) const;
   template <class Element>
-  void element_forces(const std::vector<Element>& elements, const Points& u, Points& force) const;
+  TissueResponse response(const std::vector<Element>& elements, const Points& u) const;
   template <class Element>
   void element_tangents(const std::vector<Element>& elements, const Points& u, bool definite,
-                        const ElementMap& map, Points& force, BlockMatrix& K) const;
+                        const ElementMap& map, BlockMatrix& K) const;
   void make_elements();
   void average_volumes();
   Lame element_constants(const Part& part) const;

@@ -1,5 +1,6 @@
 // The tissue's tangent: blocks of the elements into the matrix.
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include <Eigen/Eigenvalues>
@@ -61,6 +62,26 @@ void add_to_blocks(const Mat9& A, const Element& e, int q, Mat3 (&blocks)[Elemen
   }
 }
 
+template <class Element>
+void add_to_blocks(const ModalTangent& A, const Element& e, int q, Mat3 (&blocks)[Element::blocks]) {
+  constexpr int n = Element::nodes;
+  const auto& gradients = e.gradients[q];
+  std::array<Eigen::Matrix<double, 3, n>, 4> moved, weighted;   // mode times gradient, by node
+  for (std::size_t m = 0; m < moved.size(); ++m) {
+    moved[m] = A.mode[m] * gradients.transpose();
+    weighted[m] = e.volumes[q] * A.weight[m] * moved[m];
+  }
+  int k = 0;
+  for (int a = 0; a < n; ++a) {
+    for (int b = 0; b <= a; ++b, ++k) {
+      blocks[k].diagonal().array() += e.volumes[q] * A.diagonal * gradients.row(a).dot(gradients.row(b));
+      for (std::size_t m = 0; m < moved.size(); ++m) {
+        blocks[k].noalias() += weighted[m].col(a) * moved[m].col(b).transpose();
+      }
+    }
+  }
+}
+
 void add_blocks(const Mat3* blocks, int count, const ElementMap& map, Index t, BlockMatrix& K) {
   const BlockMatrix::Slot* slot = &map.slots[std::size_t(t) * std::size_t(count)];
   for (int k = 0; k < count; ++k) {
@@ -80,16 +101,13 @@ void remove_negative_eigenvalues(Mat9& A) {
 
 }  // namespace
 
-void Tissue::tangent(const Points& u, bool definite, const ElementMap& map, Points& force,
-                     BlockMatrix& K) const {
-  std::visit([&](const auto& elements) { element_tangents(elements, u, definite, map, force, K); },
-             *m_elements);
+void Tissue::tangent(const Points& u, bool definite, const ElementMap& map, BlockMatrix& K) const {
+  std::visit([&](const auto& elements) { element_tangents(elements, u, definite, map, K); }, *m_elements);
 }
 
 template <class Element>
 void Tissue::element_tangents(const std::vector<Element>& elements, const Points& u, bool definite,
-                              const ElementMap& map, Points& force, BlockMatrix& K) const {
-  std::vector<typename Element::Rows> forces(elements.size(), Element::Rows::Zero());
+                              const ElementMap& map, BlockMatrix& K) const {
   std::vector<Mat3> gradients;  // of the averaged volume, with the pressure that goes with it
   std::vector<double> pressures;
   if (!m_volume.empty()) pressures = m_volume.pressures(volume_measures(u, &gradients));
@@ -110,16 +128,19 @@ void Tissue::element_tangents(const std::vector<Element>& elements, const Points
         for (Mat3& b : block) b.setZero();
         for (int q = 0; q < Element::points; ++q) {
           const Mat3 G = e.displacement_gradient(u, nodes_of(t), q);
+          if (law.modal_tangent && pressures.empty()) {
+            ModalTangent A;
+            law.modal_tangent(lame, G, definite, A);
+            add_to_blocks(A, e, q, block);
+            continue;
+          }
           Mat3 P;
           Mat9 A;
           law.tangent(lame, G, definite, P, A);
           if (!pressures.empty()) {
-            const double p = pressures[std::size_t(t)];
-            P += p * gradients[std::size_t(t)];
-            A += p * law.volume(G).hessian;
+            A += pressures[std::size_t(t)] * law.volume(G).hessian;
             if (definite) remove_negative_eigenvalues(A);
           }
-          forces[std::size_t(t)] += e.volumes[q] * e.gradients[q] * P.transpose();
           add_to_blocks(A, e, q, block);
         }
       });
@@ -132,7 +153,6 @@ void Tissue::element_tangents(const std::vector<Element>& elements, const Points
   if constexpr (Element::points == 1) {
     if (!m_volume.empty()) m_volume.add_tangent(gradients, elements, map.patches, K);
   }
-  scatter(forces, force);
 }
 
 }  // namespace brainshift

@@ -79,9 +79,7 @@ class Disc {
     }
     for (Indices& list : ordered) std::sort(list.begin(), list.end());
     BlockMatrix K(ordered);
-    Points force;
-    m_tissue.tangent(Points::Zero(m_mesh.node_count(), 3), false, m_tissue.map_elements(m_slot, K),
-                     force, K);
+    m_tissue.tangent(Points::Zero(m_mesh.node_count(), 3), false, m_tissue.map_elements(m_slot, K), K);
     std::vector<NodeRow> rows;
     for (Index i = 0; i < m_mesh.node_count(); ++i) {
       const Index block = m_slot[std::size_t(i)];

@@ -32,6 +32,47 @@ TEST(SpdSolver, SolvesForSeveralRightHandSides) {
   }
 }
 
+// A solve in single precision, 6e-8 for each rounding; the next factor is a whole one again.
+TEST(SpdSolver, ARoundedFactorSolvesToSinglePrecisionUntilTheNext) {
+  const test::RandomMatrix random(150, 3);
+  const Eigen::MatrixXd b = 1e60 * Eigen::MatrixXd::Random(450, 2);   // beyond that range itself
+  const Eigen::MatrixXd exact = random.dense.llt().solve(b);
+  const auto solver = make_spd_solver();
+  solver->analyse(random.blocks);
+  const auto error = [&] {
+    Eigen::MatrixXd x = b;
+    solver->solve(x);
+    return (x - exact).norm() / exact.norm();
+  };
+  ASSERT_TRUE(solver->factorise(random.blocks));
+  if (!solver->round_factor()) GTEST_SKIP() << "this backend keeps its factor as it is";
+  const double rounded = error();
+  EXPECT_LT(rounded, 1e-5);
+  EXPECT_GT(rounded, 1e-9);
+  EXPECT_TRUE(solver->round_factor());
+  EXPECT_EQ(error(), rounded);
+  test::expect_error(ErrorCode::internal, {"rounded"}, [&] { solver->forward(b.col(0)); });
+  ASSERT_TRUE(solver->factorise(random.blocks));
+  EXPECT_LT(error(), 1e-13);
+}
+
+TEST(SpdSolver, AFactorOutOfSinglePrecisionsRangeStaysAsItIs) {
+  for (const double scale : {1e80, 1e-80}) {
+    const test::RandomMatrix random(20, 5);
+    BlockMatrix scaled = random.blocks;
+    scaled.set_zero();
+    scaled.add(random.blocks, scale);
+    const Eigen::MatrixXd b = Eigen::MatrixXd::Random(60, 1);
+    const auto solver = make_spd_solver();
+    solver->analyse(scaled);
+    ASSERT_TRUE(solver->factorise(scaled));
+    EXPECT_FALSE(solver->round_factor()) << scale;
+    Eigen::MatrixXd x = b;
+    solver->solve(x);
+    EXPECT_LT((scale * random.dense * x - b).norm(), 1e-13 * b.norm()) << scale;
+  }
+}
+
 // Each with a matrix of its own: neither may disturb the other, whatever the BLAS.
 TEST(SpdSolver, InTwoThreadsEqualOneAlone) {
   const auto work = [](unsigned seed, int rounds) {

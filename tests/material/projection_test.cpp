@@ -65,7 +65,7 @@ TEST(Projection, holds_for_random_deformations) {
         ASSERT_LE((projected - clamped(A)).cwiseAbs().maxCoeff(), 1e-11 * scale)
             << to_string(law) << " " << s.transpose();
         if (before.eigenvalues()[0] > 1e-12 * scale) {
-          ASSERT_EQ(projected, A) << to_string(law) << " " << s.transpose();
+          ASSERT_LE((projected - A).cwiseAbs().maxCoeff(), 1e-12 * scale) << to_string(law) << " " << s.transpose();
           ++definite;
         } else {
           ++clamps;
@@ -78,6 +78,8 @@ TEST(Projection, holds_for_random_deformations) {
   }
 }
 
+constexpr double rounding = 1e-14;   // two ways to the same tangent
+
 TEST(Projection, changes_nothing_where_the_tangent_is_definite) {
   std::mt19937 generator(3);
   for (const Law law : nonlinear_laws) {
@@ -86,7 +88,7 @@ TEST(Projection, changes_nothing_where_the_tangent_is_definite) {
       const Mat3 G = with_stretches({1.1, 1.05, 1.02}, generator);  // mild tension
       const Mat9 A = material.tangent(G, false);
       ASSERT_EQ(Eigen::LLT<Mat9>(A).info(), Eigen::Success) << to_string(law);
-      EXPECT_EQ(material.tangent(G, true), A) << to_string(law);
+      EXPECT_LE((material.tangent(G, true) - A).norm(), rounding * A.norm()) << to_string(law);
     }
   }
 }

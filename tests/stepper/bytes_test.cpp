@@ -3,6 +3,7 @@
 
 #include "brainshift/error.hpp"
 #include "stepper/bytes.hpp"
+#include "stepper/scene_bytes.hpp"
 #include "support/elements.hpp"
 #include "support/expect_error.hpp"
 #include "support/scenes.hpp"
@@ -107,9 +108,8 @@ TEST(Bytes, WithAnyByteDamagedOrMissingAreRefused) {
 
 // Lengths and numbers that lie are refused before anything is allocated or read beyond the end, also
 // where the checksum is right.
-TEST(Bytes, WithLyingContentAreRefusedWithoutHarm) {
-  Stepper s(test::busy_scene(1, 0.3));
-  const Bytes bytes = bytes_of(*s.snapshot());
+template <class Read>
+int lies_refused(const Bytes& bytes, const Read& read) {
   constexpr std::size_t head = 32, seal = 8;
   int refused = 0;
   for (std::size_t i = head; i + seal < bytes.size(); i += 8) {
@@ -118,12 +118,31 @@ TEST(Bytes, WithLyingContentAreRefusedWithoutHarm) {
     const std::uint64_t sum = checksum(lying.data(), lying.size() - seal);
     for (std::size_t k = 0; k < 8; ++k) lying[lying.size() - seal + k] = std::uint8_t(sum >> 8 * k);
     try {
-      s.read_snapshot(lying);  // a coordinate may be any number
+      read(lying);  // a coordinate may be any number
     } catch (const Error&) {
       ++refused;
     }
   }
-  EXPECT_GT(refused, 5);
+  return refused;
+}
+
+TEST(Bytes, WithLyingContentAreRefusedWithoutHarm) {
+  Scene scene = test::busy_scene(1, 0.3);
+  Stepper s(scene);
+  EXPECT_GT(lies_refused(bytes_of(*s.snapshot()), [&](const Bytes& lying) { s.read_snapshot(lying); }), 5);
+  scene.constraints = {};   // a wall takes long to make
+  scene.constraints.fix("base", {0, 1, 2});
+  scene.constraints.support("stem", {3}, Eigen::VectorXd::Constant(1, 0.3));
+  EXPECT_GT(lies_refused(Stepper(scene).record(), [](const Bytes& lying) { read_recording(lying); }), 20);
+}
+
+TEST(Bytes, OfARecordingKeepTheIdsOfGroupsHoweverManyAreGone) {
+  Scene scene = test::busy_scene(1, 0.3);
+  skip_ids(scene.constraints, 2000000000);
+  const ConstraintId id = scene.constraints.fix("base", {0, 1, 2});
+  const Scene read = read_recording(Stepper(scene).record()).scene;
+  EXPECT_EQ(id, 2000000000);
+  EXPECT_EQ(read.constraints.group(id).name, "base");
 }
 
 TEST(Bytes, OfAnotherSceneKindOrVersionAreRefusedByName) {

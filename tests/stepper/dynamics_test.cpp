@@ -76,9 +76,9 @@ struct Modes {
     const auto count = Eigen::Index(dofs.size());
     Eigen::MatrixXd K(count, count), M = Eigen::MatrixXd::Zero(count, count);
     for (Eigen::Index c = 0; c < count; ++c) {
-      Points u = Points::Zero(n, 3), force;
+      Points u = Points::Zero(n, 3);
       u.data()[dofs[std::size_t(c)]] = 1.0;
-      tissue.internal_force(u, force);
+      const Points force = tissue.response(u).force;
       for (Eigen::Index r = 0; r < count; ++r) K(r, c) = force.data()[dofs[std::size_t(r)]];
       M(c, c) = masses[dofs[std::size_t(c)]];
     }

@@ -62,9 +62,8 @@ void solve_on(int cells, test::Element element, double poisson, Rates& rates) {
   BlockMatrix K(tissue.node_adjacency());
   Indices slots(std::size_t(mesh.node_count()));
   std::iota(slots.begin(), slots.end(), 0);
-  Points unused, load = Points::Zero(mesh.node_count(), 3);
-  tissue.tangent(Points::Zero(mesh.node_count(), 3), false, tissue.map_elements(slots, K), unused,
-                 K);
+  Points load = Points::Zero(mesh.node_count(), 3);
+  tissue.tangent(Points::Zero(mesh.node_count(), 3), false, tissue.map_elements(slots, K), K);
   const auto for_points = [&](const auto& visit) {
     for (Index t = 0; t < mesh.tet_count(); ++t) {
       for (const TetQuadraturePoint& p : tet_rule_5()) {

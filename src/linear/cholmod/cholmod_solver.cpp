@@ -10,6 +10,7 @@
 #include "brainshift/error.hpp"
 #include "linear/cholmod/blas_turn.hpp"
 #include "linear/cholmod/columns.hpp"
+#include "linear/cholmod/single_factor.hpp"
 #include "linear/spd_solver.hpp"
 #include "threads/for_chunks.hpp"
 
@@ -110,6 +111,7 @@ class CholmodSolver final : public SpdSolver {
   void analyse(const BlockMatrix& matrix) override {
     cholmod_free_factor(&m_factor, &m_common);
     m_columns.clear();
+    m_single.clear();
     cholmod_sparse a = view(matrix);
     const NoTeam alone;
     m_factor = cholmod_analyze(&a, &m_common);
@@ -133,6 +135,7 @@ class CholmodSolver final : public SpdSolver {
     const NoTeam alone;
     const BlasTurn turn;
     m_columns.clear();
+    m_single.clear();
     cholmod_factorize(&a, m_factor, &m_common);
     if (m_common.status == CHOLMOD_NOT_POSDEF) return false;
     if (m_common.status < CHOLMOD_OK) fail("factorisation", m_common.status);
@@ -141,6 +144,7 @@ class CholmodSolver final : public SpdSolver {
 
   // Chunks do not depend on the threads, so neither do the bits.
   void solve(Eigen::MatrixXd& x) override {
+    if (m_single.holds()) return solve_rounded(x);
     const auto chunks = Index((x.cols() + columns_per_chunk - 1) / columns_per_chunk);
     while (m_workspaces.size() < std::size_t(chunks)) {
       m_workspaces.push_back(std::make_unique<Workspace>());
@@ -152,7 +156,13 @@ class CholmodSolver final : public SpdSolver {
     });
   }
 
+  bool round_factor() override {
+    m_columns.clear();
+    return m_single.holds() || m_single.take(*m_factor);
+  }
+
   void append(const SparseColumns& C) override {
+    expect_whole();
     const BlasTurn turn;
     m_columns.append(*m_factor, C);
   }
@@ -161,6 +171,7 @@ class CholmodSolver final : public SpdSolver {
   const Eigen::MatrixXd& compliance() const override { return m_columns.product(); }
 
   Eigen::VectorXd forward(const Eigen::VectorXd& b) override {
+    expect_whole();
     Eigen::VectorXd z = b;
     halves().solve(m_factor, z, CHOLMOD_P);
     halves().solve(m_factor, z, CHOLMOD_L);
@@ -168,6 +179,7 @@ class CholmodSolver final : public SpdSolver {
   }
   Eigen::VectorXd project(const Eigen::VectorXd& z) const override { return m_columns.project(z); }
   Eigen::VectorXd backward(const Eigen::VectorXd& z, const Eigen::VectorXd& a) override {
+    expect_whole();
     Eigen::VectorXd x = z;
     m_columns.add(a, x);
     halves().solve(m_factor, x, CHOLMOD_Lt);
@@ -179,9 +191,18 @@ class CholmodSolver final : public SpdSolver {
   double factor_nonzeros() const override { return m_common.lnz; }
 
  private:
+  void expect_whole() const {
+    if (m_single.holds()) throw Error(ErrorCode::internal, "a rounded factor is for solve() alone");
+  }
+
+  void solve_rounded(Eigen::MatrixXd& x) {
+    const BlasTurn turn;
+    for (Eigen::Index c = 0; c < x.cols(); ++c) m_single.solve(x.col(c));
+  }
+
   static cholmod_sparse view(const BlockMatrix& matrix) {
     cholmod_sparse a{};
-    a.nrow = a.ncol = std::size_t(3 * matrix.blocks());
+    a.nrow = a.ncol = 3 * std::size_t(matrix.blocks());
     a.nzmax = matrix.values().size();
     a.p = const_cast<int*>(matrix.scalar_columns().data());
     a.i = const_cast<int*>(matrix.scalar_rows().data());
@@ -204,6 +225,7 @@ class CholmodSolver final : public SpdSolver {
   cholmod_factor* m_factor = nullptr;
   std::size_t m_entries = 0;   // of the matrix
   FactorColumns m_columns;
+  SingleFactor m_single;
   std::vector<std::unique_ptr<Workspace>> m_workspaces;   // one per chunk of columns
   int m_threads = 1;
 };

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "brainshift/error.hpp"
+#include "linear/cholmod/supernodes.hpp"
 
 // Of the BLAS that CHOLMOD stands on.
 extern "C" {
@@ -23,37 +24,6 @@ namespace {
 
 constexpr double one = 1.0, zero = 0.0;
 constexpr int few = 4;   // columns that are quicker one by one: the dense kernels copy a supernode first
-
-struct Supernode {
-  int first, columns, rows;   // rows: those of its columns, then those below
-  const int* row;
-  const double* x;
-};
-
-class Supernodes {
- public:
-  explicit Supernodes(const cholmod_factor& f)
-      : m_super(static_cast<const int*>(f.super)),
-        m_pi(static_cast<const int*>(f.pi)),
-        m_px(static_cast<const int*>(f.px)),
-        m_s(static_cast<const int*>(f.s)),
-        m_x(static_cast<const double*>(f.x)),   // null in a symbolic factor
-        m_of(f.n) {
-    for (int s = 0; s < int(f.nsuper); ++s) {
-      std::fill(m_of.begin() + m_super[s], m_of.begin() + m_super[s + 1], s);
-    }
-  }
-  Supernode operator[](int s) const {
-    return {m_super[s], m_super[s + 1] - m_super[s], m_pi[s + 1] - m_pi[s], m_s + m_pi[s],
-            m_x ? m_x + m_px[s] : nullptr};
-  }
-  int of(int column) const { return m_of[std::size_t(column)]; }
-
- private:
-  const int *m_super, *m_pi, *m_px, *m_s;
-  const double* m_x;
-  std::vector<int> m_of;   // columns
-};
 
 // y := y L^-T with the triangle of a supernode; y: a right side per row.
 void solve_triangle(const Supernode& node, Eigen::MatrixXd& y) {

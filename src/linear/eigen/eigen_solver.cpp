@@ -11,7 +11,7 @@ namespace {
 class EigenSolver final : public SpdSolver {
  public:
   void analyse(const BlockMatrix& matrix) override {
-    m_llt.analyzePattern(view(matrix));
+    m_llt.analyzePattern(copy(matrix));
     m_entries = std::int64_t(matrix.values().size());
     m_nonzeros = 0.0;
   }
@@ -28,7 +28,7 @@ class EigenSolver final : public SpdSolver {
 
   bool factorise(const BlockMatrix& matrix) override {
     keep(0);
-    m_llt.factorize(view(matrix));
+    m_llt.factorize(copy(matrix));
     if (m_llt.info() != Eigen::Success) return false;
     m_nonzeros = double(m_llt.matrixL().nestedExpression().nonZeros());
     return true;
@@ -38,6 +38,8 @@ class EigenSolver final : public SpdSolver {
     for_chunks(m_threads, Index(x.cols()),
                [&](Index c) { x.col(c) = m_llt.solve(x.col(c)).eval(); });
   }
+
+  bool round_factor() override { return false; }
 
   void append(const SparseColumns& C) override {
     const auto before = m_columns.cols();
@@ -68,9 +70,9 @@ class EigenSolver final : public SpdSolver {
   double factor_nonzeros() const override { return m_nonzeros; }
 
  private:
-  using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+  using Sparse = SparseColumns::Base;
 
-  static Sparse view(const BlockMatrix& matrix) {
+  static SparseColumns copy(const BlockMatrix& matrix) {
     const int size = 3 * matrix.blocks();
     return Eigen::Map<const Sparse>(size, size, Eigen::Index(matrix.values().size()),
                                     matrix.scalar_columns().data(), matrix.scalar_rows().data(),

@@ -54,6 +54,7 @@ void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
 void __libc_free(void*);
+void free(void*);
 
 void* malloc(std::size_t size) {
   return fails_now(__builtin_return_address(0)) ? nullptr : counted(__libc_malloc(size));
@@ -62,10 +63,13 @@ void* calloc(std::size_t count, std::size_t size) {
   return fails_now(__builtin_return_address(0)) ? nullptr : counted(__libc_calloc(count, size));
 }
 void* realloc(void* memory, std::size_t size) {
+  if (memory && size == 0) {  // glibc frees, which cannot fail; Eigen takes null for that
+    free(memory);
+    return nullptr;
+  }
   if (fails_now(__builtin_return_address(0))) return nullptr;
   void* const result = __libc_realloc(memory, size);
   if (!memory && result) ++outstanding;
-  if (memory && size == 0) --outstanding;
   return result;
 }
 void* memalign(std::size_t alignment, std::size_t size) {

@@ -7,6 +7,7 @@
 
 #include "brainshift/io.hpp"
 #include "brainshift/mcp.hpp"
+#include "linear/sparse_columns.hpp"
 #include "robustness/atomicity/failing_malloc.hpp"
 #include "robustness/atomicity/world.hpp"
 
@@ -167,6 +168,31 @@ TEST_F(OutOfMemory, ValuesAreMadeOrNotMade) {
     const Eigen::VectorXd one = Eigen::VectorXd::Ones(6);
     solve_mcp(M, -one, 0.0 * one, 2.0 * one);
   });
+}
+
+// Copies of Eigen's own matrix would lose an array.
+TEST_F(OutOfMemory, SparseColumnsAreMadeOrNotMade) {
+  const std::vector<Eigen::Triplet<double>> entries{{0, 0, 1.0}, {1, 0, 2.0}, {2, 1, 3.0}, {3, 2, 4.0}};
+  const auto make = [&entries] {
+    SparseColumns columns(4, 3);
+    columns.setFromTriplets(entries.begin(), entries.end());
+    return columns;
+  };
+  const SparseColumns columns = make(), other(5, 5);
+  fail_each_allocation_of("SparseColumns", [&] { make(); });
+  fail_each_allocation_of("SparseColumns, copied", [&] { const SparseColumns copy(columns); });
+  fail_each_allocation_of("SparseColumns, cut", [&] { const SparseColumns cut(columns.leftCols(2)); });
+  fail_each_allocation_of("SparseColumns, multiplied", [&] {
+    const SparseColumns product(columns.transpose() * columns);
+  });
+  for (long k = 0, failed = 1; failed; ++k) {
+    SparseColumns changed = other;
+    bool one_failed = false;
+    const bool through = runs_through([&] { changed = columns; }, k, Failing::once, one_failed);
+    EXPECT_EQ(changed.rows(), through ? 4 : 5);
+    EXPECT_EQ(changed.nonZeros(), through ? 4 : 0);
+    failed = one_failed;
+  }
 }
 
 TEST_F(OutOfMemory, AConstraintIsAddedOrNot) {

@@ -7,6 +7,7 @@
 #include "robustness/fuzz/numbers.hpp"
 #include "robustness/fuzz/targets.hpp"
 #include "stepper/bytes.hpp"
+#include "stepper/scene_bytes.hpp"
 #include "support/scenes.hpp"
 
 namespace brainshift::test {
@@ -26,6 +27,15 @@ Stepper in_use() {
   stepper.csf().set_lost_volume(0, 100.0);
   stepper.step(0.1);
   return stepper;
+}
+
+Stepper held_without_walls() {
+  Scene scene = busy_scene(1, 0.3);
+  scene.constraints = {};
+  scene.constraints.remove(scene.constraints.fix("gone", {0}));
+  scene.constraints.fix("base", {0, 1});
+  scene.constraints.support("stem", {2, 3}, Eigen::VectorXd::Constant(1, 0.3));
+  return Stepper(scene);
 }
 
 // Bytes of `good` overwritten as `data` says, three for each: a place, and another value there; words of
@@ -72,22 +82,28 @@ void fuzz_snapshot(const std::uint8_t* data, std::size_t size) {
   static const Bytes good = bytes_of(*before);
   Numbers numbers(data, size);
   const bool step = goes_on(data, size);
+  bool changed = false;
   try {
     stepper.restore(stepper.read_snapshot(tampered(good, numbers)));
+    changed = true;
     if (step) go_on(stepper);
   } catch (const Error&) {
   }
-  stepper.restore(before);
+  if (changed) stepper.restore(before);
   if (step && bytes_of(*stepper.snapshot()) != good) std::abort();
 }
 
+// Most are only read, and without walls: to make those takes a thousand times as long.
 void fuzz_recording(const std::uint8_t* data, std::size_t size) {
-  static const Bytes good = in_use().record();
+  static const Bytes whole = in_use().record(), without_walls = held_without_walls().record();
   Numbers numbers(data, size);
-  const bool step = goes_on(data, size);
   try {
-    Stepper stepper = Stepper::replay(tampered(good, numbers));
-    if (step) go_on(stepper);
+    if (checksum(data, size) % 1024 != 0) {
+      read_recording(tampered(without_walls, numbers));
+      return;
+    }
+    Stepper stepper = Stepper::replay(tampered(whole, numbers));
+    if (goes_on(data, size)) go_on(stepper);
   } catch (const Error&) {
   }
 }

@@ -65,6 +65,23 @@ void product(benchmark::State& state) {
   for (auto _ : state) rest().tangent.multiply(x, y);
 }
 
+// Order and pattern of the matrix, made once for a mesh and its constraints.
+void ordering(benchmark::State& state) {
+  const Equilibrium& balance = rest().balance;
+  const std::vector<Indices> near = balance.tissue().node_adjacency();
+  const ConstraintSet none;
+  for (auto _ : state) benchmark::DoNotOptimize(Blocks(balance.mesh(), near, none).count());
+}
+
+// Where the blocks of each tet go, made once for a pattern.
+void element_map(benchmark::State& state) {
+  const Equilibrium& balance = rest().balance;
+  const BlockMatrix K = balance.blocks().make_matrix();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(balance.tissue().map_elements(balance.blocks().block_of(), K).slots.size());
+  }
+}
+
 void analysis(benchmark::State& state) {
   const auto solver = make_spd_solver();
   for (auto _ : state) solver->analyse(rest().tangent);
@@ -210,6 +227,8 @@ BENCHMARK(waterline)->Unit(benchmark::kMillisecond);
 BENCHMARK(contact_gaps)->Unit(benchmark::kMillisecond);
 BENCHMARK(reduction)->Unit(benchmark::kMillisecond);
 BENCHMARK(product)->Unit(benchmark::kMillisecond);
+BENCHMARK(ordering)->Unit(benchmark::kMillisecond);
+BENCHMARK(element_map)->Unit(benchmark::kMillisecond);
 BENCHMARK(analysis)->Unit(benchmark::kMillisecond);
 BENCHMARK(factor)->Unit(benchmark::kMillisecond);
 BENCHMARK(solve_rounded)->Unit(benchmark::kMillisecond);

@@ -3,6 +3,7 @@
 import argparse
 import csv
 import json
+import os
 import platform
 import re
 import subprocess
@@ -13,10 +14,18 @@ PROGRAM = ROOT / "build/release/bench/bench_speed"
 UNIT = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
 
 
-def measure(head, only):
+def reference_blas():
+    """Environment in which the program finds Debian's reference BLAS and LAPACK first."""
+    folders = sorted(Path("/usr/lib").glob("*/blas")) + sorted(Path("/usr/lib").glob("*/lapack"))
+    if len(folders) < 2:
+        raise SystemExit("the reference BLAS is not here; Debian has it in libblas3 and liblapack3")
+    return {**os.environ, "LD_LIBRARY_PATH": ":".join(map(str, folders))}
+
+
+def measure(head, only, environment=None):
     command = [PROGRAM, ROOT / "examples/head/data" / head, "--benchmark_out_format=json",
                f"--benchmark_filter={'^yardstick|' + only if only else '.'}", "--benchmark_format=json"]
-    text = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+    text = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment).stdout
     result = json.loads(text)
     result["context"].pop("host_name", None)
     result["context"].pop("executable", None)
@@ -45,9 +54,12 @@ def main():
     parser.add_argument("--head", choices=["coarse", "medium"], default="medium")
     parser.add_argument("--only", default="")
     parser.add_argument("--out")
+    parser.add_argument("--reference-blas", action="store_true")
     parser.add_argument("--write-docs", action="store_true")
     options = parser.parse_args()
-    result = measure(options.head, options.only)
+    if options.reference_blas and options.write_docs:
+        parser.error("docs/speed.md is of the BLAS that is installed")
+    result = measure(options.head, options.only, reference_blas() if options.reference_blas else None)
     result["context"]["processor"] = processor()
     of_medium = result if options.head == "medium" else measure("medium", "^yardstick")
     add_yardsticks(result, yardstick(of_medium))

@@ -14,6 +14,7 @@ using namespace dbs;
 
 // A head at rest under the default options, its tangent, and a factor of it.
 struct Rest {
+  Options options;
   SceneIds ids;
   Equilibrium balance;
   Points u;
@@ -23,7 +24,7 @@ struct Rest {
   std::unique_ptr<SpdSolver> solver = make_spd_solver();
 
   explicit Rest(const Head& head)
-      : balance(make_scene(head, Options{}, ids)),
+      : balance(make_scene(head, options, ids)),
         u(Points::Zero(head.brain.node_count(), 3)),
         forces(balance.forces(u)),
         multipliers(balance.contacts().size(), 0.0),

@@ -1,6 +1,8 @@
 #include "contact/reduction.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace brainshift {
@@ -30,21 +32,47 @@ Mat3 Reduction::Block::free() const {
 }
 
 Reduction::Reduction(Index blocks, const std::vector<NodeRow>& rows, const Reduction* like)
-    : m_blocks(std::size_t(blocks)), m_values(std::size_t(blocks), Vec3::Zero()) {
+    : m_place(std::size_t(blocks), -1) {
   for (const NodeRow& row : rows) add_row(row, like);
+  sort_blocks();
+  for (Block& b : m_held) complete_axes(b, like);
   m_particular.setZero(3 * blocks);
-  std::vector<Index> pairs;
-  for (Index i = 0; i < blocks; ++i) {
-    Block& b = m_blocks[std::size_t(i)];
-    if (b.plain) continue;
-    // Complete the held directions to an orthonormal basis.
-    if (b.held == 1) {
-      const Vec3 n = b.q.col(0);
-      const bool follow = like && like->m_blocks[std::size_t(i)].held == 1;
-      const Vec3 axis = follow ? Vec3(like->m_blocks[std::size_t(i)].q.col(1)) : axis_far_from(n);
-      b.q.col(1) = (axis - axis.dot(n) * n).normalized();
-    }
-    if (b.held <= 2) b.q.col(2) = cross(b.q.col(0), b.q.col(1));
+  find_particular();
+}
+
+const Reduction::Block* Reduction::find(Index block) const {
+  const int place = m_place[std::size_t(block)];
+  return place < 0 ? nullptr : &m_held[std::size_t(place)];
+}
+
+Reduction::Block& Reduction::hold(Index block) {
+  int& place = m_place[std::size_t(block)];
+  if (place < 0) {
+    place = int(m_held.size());
+    m_held.emplace_back();
+    m_held.back().block = block;
+  }
+  return m_held[std::size_t(place)];
+}
+
+void Reduction::sort_blocks() {
+  std::sort(m_held.begin(), m_held.end(), [](const Block& a, const Block& b) { return a.block < b.block; });
+  for (std::size_t k = 0; k < m_held.size(); ++k) m_place[std::size_t(m_held[k].block)] = int(k);
+}
+
+// Completes the held directions to an orthonormal basis.
+void Reduction::complete_axes(Block& b, const Reduction* like) const {
+  if (b.held == 1) {
+    const Vec3 n = b.q.col(0);
+    const Block* other = like ? like->find(b.block) : nullptr;
+    const Vec3 axis = other && other->held == 1 ? Vec3(other->q.col(1)) : axis_far_from(n);
+    b.q.col(1) = (axis - axis.dot(n) * n).normalized();
+  }
+  if (b.held <= 2) b.q.col(2) = cross(b.q.col(0), b.q.col(1));
+}
+
+void Reduction::find_particular() {
+  for (Block& b : m_held) {
     // lower * beta = values, lower triangular; dx = sum beta_k q_k.
     const auto solve = [&b](Vec3 rhs) {
       Vec3 beta = Vec3::Zero();
@@ -54,16 +82,13 @@ Reduction::Reduction(Index blocks, const std::vector<NodeRow>& rows, const Reduc
       }
       return Vec3(b.q * beta);
     };
-    m_particular.segment<3>(3 * i) = solve(m_values[std::size_t(i)]);
-    if (b.pair >= 0) {
-      b.pair_response = solve(Vec3::Unit(b.pair));
-      pairs.push_back(i);
-    }
+    m_particular.segment<3>(3 * b.block) = solve(b.values);
+    if (b.pair >= 0) b.pair_response = solve(Vec3::Unit(b.pair));
   }
-  for (Index i : pairs) {  // partners hold no pair of their own, so their c is final
-    const Block& b = m_blocks[std::size_t(i)];
+  for (const Block& b : m_held) {  // partners hold no pair of their own, so their c is final
+    if (b.pair < 0) continue;
     const Vec3 partner = m_particular.segment<3>(3 * b.partner);
-    m_particular.segment<3>(3 * i) += b.pair_response * b.pair_normal.dot(partner);
+    m_particular.segment<3>(3 * b.block) += b.pair_response * b.pair_normal.dot(partner);
   }
 }
 
@@ -86,28 +111,28 @@ Vec3 Reduction::Block::rest_of(const Vec3& normal, Vec3& along) const {
 void Reduction::add_row(NodeRow row, const Reduction* like) {
   Vec3 along;
   if (row.partner >= 0) {
-    const Block& here = m_blocks[std::size_t(row.block)];
-    const Block& there = m_blocks[std::size_t(row.partner)];
-    if (here.pair >= 0 || there.pair >= 0) return;
-    const bool turn = like ? like->m_blocks[std::size_t(row.partner)].pair >= 0
-                           : here.rest_of(row.normal, along).norm() <
-                                 0.5 * there.rest_of(row.normal, along).norm();
+    const Block *here = find(row.block), *there = find(row.partner);
+    if ((here && here->pair >= 0) || (there && there->pair >= 0)) return;
+    const Block* before = like ? like->find(row.partner) : nullptr;
+    const auto left = [&](const Block* b) { return b ? b->rest_of(row.normal, along).norm() : row.normal.norm(); };
+    const bool turn = like ? before && before->pair >= 0 : left(here) < 0.5 * left(there);
     if (turn) {
       std::swap(row.block, row.partner);
       row.normal = -row.normal;
     }
   }
-  Block& b = m_blocks[std::size_t(row.block)];
-  if (b.held == 3) return;
-  const Vec3 rest = b.rest_of(row.normal, along);
+  const Block* known = find(row.block);
+  if (known && known->held == 3) return;
+  along.setZero();
+  const Vec3 rest = known ? known->rest_of(row.normal, along) : row.normal;
   const double length = rest.norm();
   if (!(length > dependence * row.normal.norm())) return;
-  b.plain = false;
+  Block& b = hold(row.block);
   b.q.col(b.held) = rest / length;
   for (int k = 0; k < b.held; ++k) b.lower(b.held, k) = along[k];
   b.lower(b.held, b.held) = length;
   b.tags[b.held] = row.tag;
-  m_values[std::size_t(row.block)][b.held] = row.value;
+  b.values[b.held] = row.value;
   if (row.partner >= 0) {
     b.pair = b.held;
     b.partner = row.partner;
@@ -117,63 +142,66 @@ void Reduction::add_row(NodeRow row, const Reduction* like) {
 }
 
 Mat3 Reduction::coupling(const Block& b) const {
-  return b.pair_response * (b.pair_normal.transpose() * m_blocks[std::size_t(b.partner)].free());
+  const Mat3 free = find(b.partner) ? find(b.partner)->free() : Mat3(Mat3::Identity());
+  return b.pair_response * (b.pair_normal.transpose() * free);
+}
+
+// A block's own part in dx and, through a pair row, its partner's.
+Reduction::Side Reduction::side(Index block, const Block* held) const {
+  Side s;
+  s.to[0] = block;
+  s.from[0] = held ? held->free() : Mat3(Mat3::Identity());
+  if (!held || held->pair < 0) return s;
+  s.count = 2;
+  s.to[1] = held->partner;
+  s.from[1] = coupling(*held);
+  return s;
 }
 
 void Reduction::reduce(const BlockMatrix& K, double diagonal, BlockMatrix& A) const {
   A.set_zero();
   for (Index j = 0; j < K.blocks(); ++j) {
-    const Block& bj = m_blocks[std::size_t(j)];
+    const Block* bj = find(j);
     const Index count = Index(K.rows_end(j) - K.rows_begin(j));
     for (Index k = 0; k < count; ++k) {
       const Index i = K.rows_begin(j)[k];
-      const Block& bi = m_blocks[std::size_t(i)];
+      const Block* bi = find(i);
       const BlockMatrix::Slot slot = K.slot_at(j, k);
       const Mat3 block = K.get(slot);
-      if (bi.plain && bj.plain) {
+      if (!bi && !bj) {
         A.add(slot, block);
         continue;
       }
-      // (own block, partner) of the row side and of the column side
-      const Mat3 left[2] = {bi.free(), bi.pair >= 0 ? coupling(bi) : Mat3(Mat3::Zero())};
-      const Mat3 right[2] = {bj.free(), bj.pair >= 0 ? coupling(bj) : Mat3(Mat3::Zero())};
-      const Index to_row[2] = {i, bi.partner}, to_col[2] = {j, bj.partner};
-      for (int p = 0; p < (bi.pair >= 0 ? 2 : 1); ++p) {
-        for (int q = 0; q < (bj.pair >= 0 ? 2 : 1); ++q) {
+      const Side row = side(i, bi), column = side(j, bj);
+      for (int p = 0; p < row.count; ++p) {
+        for (int q = 0; q < column.count; ++q) {
           if (i == j && p < q) continue;  // its transpose comes with p > q
-          const Mat3 part = left[p].transpose() * block * right[q];
-          if (to_row[p] == to_col[q] && i != j) {
-            A.add_at(to_row[p], to_row[p], part + part.transpose());  // K_ij and K_ji
+          const Mat3 part = row.from[p].transpose() * block * column.from[q];
+          if (row.to[p] == column.to[q] && i != j) {
+            A.add_at(row.to[p], row.to[p], part + part.transpose());  // K_ij and K_ji
           } else {
-            A.add_at(to_row[p], to_col[q], part);
+            A.add_at(row.to[p], column.to[q], part);
           }
         }
       }
     }
   }
-  for (Index i = 0; i < K.blocks(); ++i) {
-    const Block& b = m_blocks[std::size_t(i)];
-    if (b.plain) continue;
+  for (const Block& b : m_held) {
     Vec3 fill = Vec3::Zero();
     for (int k = 0; k < b.held; ++k) fill[k] = diagonal;
-    A.add(A.slot_at(i, 0), fill.asDiagonal().toDenseMatrix());
+    A.add(A.slot_at(b.block, 0), fill.asDiagonal().toDenseMatrix());
   }
 }
 
 Eigen::VectorXd Reduction::restrict_force(const Eigen::VectorXd& v) const {
   Eigen::VectorXd y = v;
-  for (std::size_t i = 0; i < m_blocks.size(); ++i) {
-    const Block& b = m_blocks[i];
-    if (b.pair >= 0) {  // v on the block is felt by the partner through the pair row
-      y.segment<3>(3 * b.partner) +=
-          b.pair_normal * b.pair_response.dot(v.segment<3>(3 * Eigen::Index(i)));
-    }
+  for (const Block& b : m_held) {
+    if (b.pair < 0) continue;  // v on the block is felt by the partner through the pair row
+    y.segment<3>(3 * b.partner) += b.pair_normal * b.pair_response.dot(v.segment<3>(3 * b.block));
   }
-  for (std::size_t i = 0; i < m_blocks.size(); ++i) {
-    if (!m_blocks[i].plain) {
-      const Vec3 force = y.segment<3>(3 * Eigen::Index(i));
-      y.segment<3>(3 * Eigen::Index(i)) = m_blocks[i].free().transpose() * force;
-    }
+  for (const Block& b : m_held) {
+    const Vec3 force = y.segment<3>(3 * b.block);
+    y.segment<3>(3 * b.block) = b.free().transpose() * force;
   }
   return y;
 }
@@ -181,8 +209,8 @@ Eigen::VectorXd Reduction::restrict_force(const Eigen::VectorXd& v) const {
 SparseColumns Reduction::restrict_columns(const SparseColumns& forces) const {
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](Index block, const Vec3& force, int column) {
-    const Block& b = m_blocks[std::size_t(block)];
-    const Vec3 felt = b.plain ? force : Vec3(b.free().transpose() * force);
+    const Block* b = find(block);
+    const Vec3 felt = b ? Vec3(b->free().transpose() * force) : force;
     for (int k = 0; k < 3; ++k) entries.emplace_back(3 * block + k, column, felt[k]);
   };
   for (int c = 0; c < int(forces.cols()); ++c) {
@@ -190,8 +218,8 @@ SparseColumns Reduction::restrict_columns(const SparseColumns& forces) const {
       const Index block = Index(it.row()) / 3;
       const Vec3 force = it.value() * Vec3::Unit(it.row() % 3);
       add(block, force, c);
-      const Block& b = m_blocks[std::size_t(block)];
-      if (b.pair >= 0) add(b.partner, b.pair_normal * b.pair_response.dot(force), c);
+      const Block* b = find(block);
+      if (b && b->pair >= 0) add(b->partner, b->pair_normal * b->pair_response.dot(force), c);
     }
   }
   SparseColumns result(forces.rows(), forces.cols());
@@ -201,35 +229,33 @@ SparseColumns Reduction::restrict_columns(const SparseColumns& forces) const {
 
 Eigen::VectorXd Reduction::expand(const Eigen::VectorXd& y) const {
   Eigen::VectorXd dx = y;
-  for (std::size_t i = 0; i < m_blocks.size(); ++i) {
-    if (!m_blocks[i].plain) {
-      dx.segment<3>(3 * Eigen::Index(i)) =
-          m_blocks[i].free() * Vec3(y.segment<3>(3 * Eigen::Index(i)));
-    }
-  }
-  for (std::size_t i = 0; i < m_blocks.size(); ++i) {
-    const Block& b = m_blocks[i];
-    if (b.pair >= 0) {
-      dx.segment<3>(3 * Eigen::Index(i)) +=
-          b.pair_response * b.pair_normal.dot(dx.segment<3>(3 * b.partner));
-    }
+  for (const Block& b : m_held) dx.segment<3>(3 * b.block) = b.free() * Vec3(y.segment<3>(3 * b.block));
+  for (const Block& b : m_held) {
+    if (b.pair < 0) continue;
+    dx.segment<3>(3 * b.block) += b.pair_response * b.pair_normal.dot(dx.segment<3>(3 * b.partner));
   }
   return dx;
 }
 
+Indices Reduction::held_blocks() const {
+  Indices blocks;
+  for (const Block& b : m_held) blocks.push_back(b.block);
+  return blocks;
+}
+
 std::vector<Reduction::Held> Reduction::held_rows() const {
   std::vector<Held> rows;
-  for (std::size_t i = 0; i < m_blocks.size(); ++i) {
-    for (int k = 0; k < m_blocks[i].held; ++k) rows.push_back({m_blocks[i].tags[k], Index(i)});
+  for (const Block& b : m_held) {
+    for (int k = 0; k < b.held; ++k) rows.push_back({b.tags[k], b.block});
   }
   return rows;
 }
 
 SparseColumns Reduction::released(const Indices& blocks, std::size_t kept,
                                   std::vector<std::size_t>& tags) const {
-  std::vector<Indices> followers(m_blocks.size());   // through a pair row
-  for (std::size_t i = 0; i < m_blocks.size(); ++i) {
-    if (m_blocks[i].pair >= 0) followers[std::size_t(m_blocks[i].partner)].push_back(Index(i));
+  std::map<Index, std::vector<const Block*>> followers;   // of a block, through a pair row
+  for (const Block& b : m_held) {
+    if (b.pair >= 0) followers[b.partner].push_back(&b);
   }
   std::vector<Eigen::Triplet<double>> entries;
   int column = 0;
@@ -237,20 +263,17 @@ SparseColumns Reduction::released(const Indices& blocks, std::size_t kept,
     for (int k = 0; k < 3; ++k) entries.emplace_back(3 * block + k, column, motion[k]);
   };
   for (Index block : blocks) {
-    const Block& b = m_blocks[std::size_t(block)];
-    for (int k = 0; k < b.held; ++k) {
-      if (b.tags[k] == kept) continue;
-      const Vec3 motion = b.q.col(k);
+    const Block* b = find(block);
+    for (int k = 0; b && k < b->held; ++k) {
+      if (b->tags[k] == kept) continue;
+      const Vec3 motion = b->q.col(k);
       add(block, motion);
-      for (Index i : followers[std::size_t(block)]) {
-        const Block& f = m_blocks[std::size_t(i)];
-        add(i, f.pair_response * f.pair_normal.dot(motion));
-      }
-      tags.push_back(b.tags[k]);
+      for (const Block* f : followers[block]) add(f->block, f->pair_response * f->pair_normal.dot(motion));
+      tags.push_back(b->tags[k]);
       ++column;
     }
   }
-  SparseColumns result(3 * Eigen::Index(m_blocks.size()), column);
+  SparseColumns result(3 * Eigen::Index(m_place.size()), column);
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
@@ -259,11 +282,10 @@ void Reduction::multipliers(const Eigen::VectorXd& unbalanced, std::vector<doubl
   Eigen::VectorXd force = unbalanced;
   // Blocks with a pair row first: their reaction loads the partner.
   for (int pass = 0; pass < 2; ++pass) {
-    for (std::size_t i = 0; i < m_blocks.size(); ++i) {
-      const Block& b = m_blocks[i];
-      if (b.plain || (b.pair >= 0) != (pass == 0)) continue;
+    for (const Block& b : m_held) {
+      if ((b.pair >= 0) != (pass == 0)) continue;
       // sum_k multiplier_k normal_k = -force along the held directions: lower^T m = -q^T force.
-      Vec3 rhs = -b.q.transpose() * force.segment<3>(3 * Eigen::Index(i));
+      Vec3 rhs = -b.q.transpose() * force.segment<3>(3 * b.block);
       for (int k = b.held - 1; k >= 0; --k) {
         for (int j = k + 1; j < b.held; ++j) rhs[k] -= b.lower(j, k) * rhs[j];
         rhs[k] /= b.lower(k, k);
@@ -277,12 +299,7 @@ void Reduction::multipliers(const Eigen::VectorXd& unbalanced, std::vector<doubl
 Eigen::VectorXd Reduction::project(const Eigen::VectorXd& force) const {
   Eigen::VectorXd rest = restrict_force(force);
   // Back to Cartesian axes of each block, so that norms do not depend on the local ones.
-  for (std::size_t i = 0; i < m_blocks.size(); ++i) {
-    if (!m_blocks[i].plain) {
-      rest.segment<3>(3 * Eigen::Index(i)) =
-          m_blocks[i].q * Vec3(rest.segment<3>(3 * Eigen::Index(i)));
-    }
-  }
+  for (const Block& b : m_held) rest.segment<3>(3 * b.block) = b.q * Vec3(rest.segment<3>(3 * b.block));
   return rest;
 }
 

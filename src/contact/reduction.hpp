@@ -45,7 +45,8 @@ class Reduction {
     Index block;
   };
   std::vector<Held> held_rows() const;
-  bool holds(Index block) const { return !m_blocks[std::size_t(block)].plain; }
+  Indices held_blocks() const;
+  bool holds(Index block) const { return m_place[std::size_t(block)] >= 0; }
   // The motions that T gains when these blocks let go all their rows but those tagged `kept`, one per
   // column: (9) with y beside them and c as it is reaches every motion then. tags: of those rows.
   SparseColumns released(const Indices& blocks, std::size_t kept, std::vector<std::size_t>& tags) const;
@@ -57,10 +58,11 @@ class Reduction {
   Eigen::VectorXd project(const Eigen::VectorXd& force) const;
 
  private:
-  struct Block {
-    bool plain = true;          // no row: Q = I
+  struct Block {   // that rows hold; Q = I for all others
+    Index block;
     Mat3 q = Mat3::Identity();  // orthonormal; the first `held` columns are held by rows
     Mat3 lower = Mat3::Zero();  // row k: normal_k = sum_j lower(k, j) q_j
+    Vec3 values = Vec3::Zero(); // right-hand sides of the held rows
     int held = 0;
     std::size_t tags[3] = {0, 0, 0};
     int pair = -1;  // which held row is a pair row
@@ -70,11 +72,22 @@ class Reduction {
     Mat3 free() const;                  // q with the held columns zeroed
     Vec3 rest_of(const Vec3& normal, Vec3& along) const;
   };
+  struct Side {   // dx of a block: from[k] times y of the blocks to[k]
+    int count = 1;
+    Index to[2] = {-1, -1};
+    Mat3 from[2];
+  };
+  Side side(Index block, const Block* held) const;
+  const Block* find(Index block) const;   // null: no row holds it
+  Block& hold(Index block);
   void add_row(NodeRow row, const Reduction* like);
+  void sort_blocks();
+  void complete_axes(Block& b, const Reduction* like) const;
+  void find_particular();
   Mat3 coupling(const Block& b) const;  // T_i Q_partner: from y of the partner to dx of the block
 
-  std::vector<Block> m_blocks;
-  std::vector<Vec3> m_values;  // right-hand sides of the held rows of each block
+  std::vector<int> m_place;    // of each block in the next, -1 for most
+  std::vector<Block> m_held;   // by number of the block
   Eigen::VectorXd m_particular;
 };
 

@@ -28,6 +28,7 @@ BlockMatrix::BlockMatrix(const std::vector<Indices>& adjacency)
     m_rows.insert(m_rows.end(), std::upper_bound(near.begin(), near.end(), Index(j)), near.end());
     m_start[j + 1] = Index(m_rows.size());
   }
+  find_left();
   m_values.assign(9 * total, 0.0);
   m_scalar_rows.reserve(9 * total);
   m_scalar_columns.reserve(3 * adjacency.size() + 1);
@@ -39,6 +40,20 @@ BlockMatrix::BlockMatrix(const std::vector<Indices>& adjacency)
       }
       m_scalar_columns.push_back(int(m_scalar_rows.size()));
     }
+  }
+}
+
+void BlockMatrix::find_left() {
+  m_left_start.assign(std::size_t(m_blocks) + 1, 0);
+  for (Index j = 0; j < m_blocks; ++j) {
+    for (const Index* row = rows_begin(j) + 1; row != rows_end(j); ++row) ++m_left_start[std::size_t(*row) + 1];
+  }
+  for (Index i = 0; i < m_blocks; ++i) m_left_start[std::size_t(i) + 1] += m_left_start[std::size_t(i)];
+  m_left.resize(std::size_t(m_left_start.back()));
+  std::vector<Index> next = m_left_start;
+  for (Index j = 0; j < m_blocks; ++j) {
+    const Index count = Index(rows_end(j) - rows_begin(j));
+    for (Index k = 1; k < count; ++k) m_left[std::size_t(next[std::size_t(rows_begin(j)[k])]++)] = {j, k};
   }
 }
 
@@ -57,27 +72,11 @@ BlockMatrix::Slot BlockMatrix::slot(Index row, Index col) const {
   return slot_at(col, Index(found - rows_begin(col)));
 }
 
-void BlockMatrix::add(const Slot& s, const Mat3& block) {
-  double* v = m_values.data() + s.offset;
-  for (int c = 0; c < 3; ++c, v += s.stride) {
-    for (int r = 0; r < 3; ++r) v[r] += block(r, c);
-  }
-}
-
 void BlockMatrix::add(const BlockMatrix& other, double factor) {
   if (other.m_values.size() != m_values.size()) {
     throw Error(ErrorCode::internal, "matrices of two patterns cannot be added");
   }
   for (std::size_t i = 0; i < m_values.size(); ++i) m_values[i] += factor * other.m_values[i];
-}
-
-Mat3 BlockMatrix::get(const Slot& s) const {
-  Mat3 block;
-  const double* v = m_values.data() + s.offset;
-  for (int c = 0; c < 3; ++c, v += s.stride) {
-    for (int r = 0; r < 3; ++r) block(r, c) = v[r];
-  }
-  return block;
 }
 
 void BlockMatrix::add_at(Index row, Index col, const Mat3& block) {
@@ -111,6 +110,20 @@ void BlockMatrix::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
       yj += block.transpose() * x.segment<3>(3 * i);
     }
     y.segment<3>(3 * j) += yj;
+  }
+}
+
+void BlockMatrix::multiply(const Eigen::VectorXd& x, const Indices& rows, Eigen::VectorXd& y) const {
+  y.setZero(3 * m_blocks);
+  for (const Index i : rows) {
+    const Index count = Index(rows_end(i) - rows_begin(i));
+    Vec3 yi = get(slot_at(i, 0)) * x.segment<3>(3 * i);
+    for (Index k = 1; k < count; ++k) yi += get(slot_at(i, k)).transpose() * x.segment<3>(3 * rows_begin(i)[k]);
+    for (Index l = m_left_start[std::size_t(i)]; l < m_left_start[std::size_t(i) + 1]; ++l) {
+      const Left& left = m_left[std::size_t(l)];
+      yi += get(slot_at(left.column, left.k)) * x.segment<3>(3 * left.column);
+    }
+    y.segment<3>(3 * i) = yi;
   }
 }
 

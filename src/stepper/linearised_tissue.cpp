@@ -43,10 +43,12 @@ void LinearisedTissue::take_factor(const Reduction& factored) {
   m_solver.solve(m_moved_rows);
 }
 
-Eigen::VectorXd LinearisedTissue::times(const Eigen::VectorXd& dx) const {
+Eigen::VectorXd LinearisedTissue::times(const Eigen::VectorXd& dx, const Indices& blocks) const {
   Eigen::VectorXd product;
-  m_K.multiply(dx, product);
-  return product + m_terms * (m_term_rows.transpose() * dx);
+  m_K.multiply(dx, blocks, product);
+  const Eigen::VectorXd parts = m_term_rows.transpose() * dx;
+  for (const Index i : blocks) product.segment<3>(3 * i) += m_terms.middleRows<3>(3 * i) * parts;
+  return product;
 }
 
 // Columns outlive the iteration that needed them, and are then of yesterday's rows. They may only weigh what

@@ -44,7 +44,8 @@ class LinearisedTissue {
   Eigen::VectorXd step(const Eigen::VectorXd& along_path) const;
 
   const SparseColumns& path() const { return m_path; }
-  Eigen::VectorXd times(const Eigen::VectorXd& dx) const;   // (K + sum column row^T) dx
+  // (K + sum column row^T) dx on these blocks; 0 on all others.
+  Eigen::VectorXd times(const Eigen::VectorXd& dx, const Indices& blocks) const;
 
  private:
   // Columns of the border beside the factor, of one tag: the motion that its row's release gives, and the

@@ -72,7 +72,7 @@ Newton::Step Newton::direction() {
 
 // What follows from the motions of tissue and devices.
 void Newton::complete(Step& step, const Eigen::VectorXd& pushed) const {
-  const Eigen::VectorXd unbalanced = pushed - m_linearised->times(step.dx);
+  const Eigen::VectorXd unbalanced = pushed - m_linearised->times(step.dx, m_reduction->held_blocks());
   step.multipliers.assign(m_active.size() + 1, 0.0);  // the last one collects fixed rows
   m_reduction->multipliers(unbalanced, step.multipliers);
   step.multipliers.pop_back();

@@ -48,6 +48,16 @@ TEST(BlockMatrix, MultipliesAsTheSymmetricMatrixItStandsFor) {
   EXPECT_LT((y - random.dense * x).norm(), 1e-13 * y.norm());
 }
 
+TEST(BlockMatrix, MultipliesSomeOfItsRows) {
+  const test::RandomMatrix random(12, 2);
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(36, -1.0, 2.0), all = random.dense * x;
+  const Indices rows = {11, 0, 5};
+  Eigen::VectorXd y = Eigen::VectorXd::Constant(5, 99.0), expected = Eigen::VectorXd::Zero(36);
+  for (const Index i : rows) expected.segment<3>(3 * i) = all.segment<3>(3 * i);
+  random.blocks.multiply(x, rows, y);
+  EXPECT_LT((y - expected).norm(), 1e-13 * all.norm());
+}
+
 TEST(BlockMatrix, AddsABlockOrItsTransposeIntoTheLowerTriangle) {
   BlockMatrix K({{1}, {0}});
   Mat3 A;

@@ -2,13 +2,13 @@
 stopped."""
 import json
 import os
-import pty
 import signal
 import subprocess
 import unittest
 
 from support import EXAMPLE, QUICK, WORK, Case, run, stages_of  # first: it says where the example's modules are
 import progress
+from terminal import said_to_terminal
 
 LABELS = WORK / "out/phantom/labels.nii.gz"
 PLAN = WORK / "out/phantom/plan_lps"
@@ -41,18 +41,8 @@ class Progress(Case):
         self.assertIn("none.nii.gz: cannot be read", last["message"])
 
     def test_a_terminal_gets_one_line_that_is_gone_in_the_end(self):
-        ours, theirs = pty.openpty()
-        process = subprocess.Popen([EXAMPLE / "run", LABELS, "--plan", PLAN, "--out", self.folder / "out", *QUICK],
-                                   stderr=theirs, stdout=subprocess.DEVNULL)
-        os.close(theirs)
-        said = b""
-        try:
-            while part := os.read(ours, 4096):
-                said += part
-        except OSError:  # Linux: the other end is closed
-            pass
-        os.close(ours)
-        self.assertEqual(process.wait(), 0)
+        status, said = said_to_terminal([EXAMPLE / "run", LABELS, "--plan", PLAN, "--out", self.folder / "out", *QUICK])
+        self.assertEqual(status, 0)
         self.assertNotIn(b"\n", said)
         self.assertRegex(said, rb"\d\d %, \d+ s left; stage 5, right, cannula out: iteration \d")
         self.assertTrue(said.endswith(b"\r\x1b[K"), said[-80:])

@@ -13,7 +13,7 @@ import numpy as np
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLE = SOURCE / "examples/own_head"
-sys.path[:0] = [str(EXAMPLE), str(SOURCE / "examples/head")]
+sys.path[:0] = [str(EXAMPLE), str(SOURCE / "examples/head"), str(SOURCE / "tests/support")]
 
 # Folder in which the fixtures put the synthetic head and its results (CMakeLists.txt).
 WORK = pathlib.Path(os.environ.get("OWN_HEAD_WORK", "."))

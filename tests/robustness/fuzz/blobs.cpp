@@ -1,7 +1,9 @@
 // Snapshots and recordings that were tampered with and sealed again: the checksum does not help there.
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <vector>
 
 #include "brainshift/stepper.hpp"
 #include "robustness/fuzz/numbers.hpp"
@@ -38,9 +40,32 @@ Stepper held_without_walls() {
   return Stepper(scene);
 }
 
+// A few numbers in a file may ask for a grid of 2e8 distances to a wall (SurfaceOptions::grid_spacing), minutes of
+// work that is no hang: where the points of the wall lie, how fine its grid and how wide its band is.
+struct Kept {
+  std::size_t at;
+  Bytes bytes;
+};
+
+Kept find_kept(const Bytes& all, const double* values, std::size_t count) {
+  const auto* const first = reinterpret_cast<const std::uint8_t*>(values);
+  const Bytes bytes(first, first + count * sizeof(double));
+  const auto found = std::search(all.begin(), all.end(), bytes.begin(), bytes.end());
+  if (found == all.end()) std::abort();
+  return {std::size_t(found - all.begin()), bytes};
+}
+
+std::vector<Kept> size_of_wall(const Bytes& recording) {
+  const Scene scene = read_recording(recording).scene;
+  const Surface& wall = *scene.constraints.groups().front().surface;
+  const double options[] = {wall.options().grid_spacing, wall.options().band};
+  return {find_kept(recording, wall.points().data(), std::size_t(wall.points().size())),
+          find_kept(recording, options, 2)};
+}
+
 // Bytes of `good` overwritten as `data` says, three for each: a place, and another value there; words of
-// special numbers for some. Then its end cut off, for one in sixteen. Sealed.
-Bytes tampered(Bytes bytes, Numbers& numbers) {
+// special numbers for some, but for what is kept. Then its end cut off, for one in sixteen. Sealed.
+Bytes tampered(Bytes bytes, Numbers& numbers, const std::vector<Kept>& kept = {}) {
   const std::size_t content = bytes.size() - head - seal;
   const int cut = numbers.byte();
   while (numbers.more()) {
@@ -55,6 +80,7 @@ Bytes tampered(Bytes bytes, Numbers& numbers) {
     if (way >= 228) std::memcpy(&bits, &value, sizeof bits);
     for (int i = 0; i < 8; ++i) bytes[place + std::size_t(i)] = std::uint8_t(bits >> 8 * i);
   }
+  for (const Kept& k : kept) std::copy(k.bytes.begin(), k.bytes.end(), bytes.begin() + std::ptrdiff_t(k.at));
   const std::size_t left = cut < 16 ? content * std::size_t(cut) / 16 : content;
   bytes.resize(head + left + seal);
   for (int i = 0; i < 8; ++i) bytes[24 + std::size_t(i)] = std::uint8_t(left >> 8 * i);
@@ -96,13 +122,14 @@ void fuzz_snapshot(const std::uint8_t* data, std::size_t size) {
 // Most are only read, and without walls: to make those takes a thousand times as long.
 void fuzz_recording(const std::uint8_t* data, std::size_t size) {
   static const Bytes whole = in_use().record(), without_walls = held_without_walls().record();
+  static const std::vector<Kept> kept = size_of_wall(whole);
   Numbers numbers(data, size);
   try {
     if (checksum(data, size) % 1024 != 0) {
       read_recording(tampered(without_walls, numbers));
       return;
     }
-    Stepper stepper = Stepper::replay(tampered(whole, numbers));
+    Stepper stepper = Stepper::replay(tampered(whole, numbers, kept));
     if (goes_on(data, size)) go_on(stepper);
   } catch (const Error&) {
   }
